@@ -1,0 +1,31 @@
+#pragma once
+// Primal contouring (the report, section 2.9): where the interface crosses the line between two cell centres, and
+// where the nodes of the interface go.
+#include <vector>
+
+#include "sculpt/brep/interfaces.hpp"
+#include "sculpt/input/material_source.hpp"
+#include "sculpt/mesh/hex_mesh.hpp"
+
+namespace sculpt {
+
+// A point of the interface and its unit normal, which points from the smaller material to the larger.
+struct Crossing {
+  Vec3 point, normal;
+};
+
+// Position in [0,1] of the zero of the cubic with end values g0 >= 0 >= g1 and end slopes m0, m1 (equations 2.5-2.6,
+// slopes limited so that the cubic is monotone). Equal zeros at both ends: 1/2.
+[[nodiscard]] double hermite_root(double g0, double g1, double m0, double m1);
+
+// Local. Crossing of every quad whose two cells are at most in the first ghost layer; others are left zero.
+// Gradients: least squares over the cells that share a node, mirrored at the box (equation 2.1).
+[[nodiscard]] std::vector<Crossing> edge_crossings(const HexMesh& mesh, const Interfaces& faces, const Fractions& fractions,
+                                                   const NodeHexes& around);
+
+// Collective. Moves every interface node of the mesh to the interface (surfaces: weighted mean of the projections to
+// the crossing planes; curves and vertices: mean of the projections to the pairwise intersections). A node stays on
+// its box sides and moves at most 0.45 of a cell per axis.
+void place_nodes(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings);
+
+}  // namespace sculpt

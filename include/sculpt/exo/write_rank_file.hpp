@@ -1,0 +1,33 @@
+#pragma once
+// Writes one rank's mesh as an Exodus II file with Nemesis tables, in the way of SEACAS: everything is
+// defined first, in a few calls, so that thousands of blocks and sets cost next to nothing.
+//
+// A file appears under its final name only when all ranks are done:
+//     write_rank_file(temporary_name(final), mesh);   every rank on its own
+//     ... all ranks agree that this went well ...
+//     publish(temporary_name(final), final);          or discard(temporary_name(final))
+#include <string>
+
+#include "sculpt/exo/rank_mesh.hpp"
+
+namespace sculpt {
+
+// base.e.<ranks>.<rank>, the rank zero padded to the digits of `ranks`. The extension may be another one.
+[[nodiscard]] std::string rank_file_name(const std::string& base, int ranks, int rank,
+                                         const std::string& extension = "e");
+
+// A hidden name in the same folder as `final_name`, so that publish() is one rename.
+[[nodiscard]] std::string temporary_name(const std::string& final_name);
+
+// Local. Throws Error with the file and the cause (disk full, no permission, a limit of the format); the file
+// is removed then. Throws BrokenPromise when the mesh contradicts itself.
+void write_rank_file(const std::string& path, const RankMesh& mesh);
+
+// Local. Puts a finished file in place, over an earlier one. Throws Error, leaving the earlier file as it
+// was.
+void publish(const std::string& temporary, const std::string& final_name);
+
+// Local. Removes a file that is not wanted any more; it may be absent. Never throws.
+void discard(const std::string& temporary) noexcept;
+
+}  // namespace sculpt

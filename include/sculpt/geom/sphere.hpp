@@ -1,0 +1,24 @@
+#pragma once
+// The ball as a Shape.
+#include "sculpt/geom/shape.hpp"
+
+namespace sculpt {
+
+class Sphere final : public Shape {
+ public:
+  // radius > 0
+  Sphere(const Vec3& center, double radius) : center_(center), radius_(radius) {}
+
+  [[nodiscard]] Box bounds() const override;
+  [[nodiscard]] bool contains(const Box& box) const override;
+  [[nodiscard]] bool misses(const Box& box) const override;
+  [[nodiscard]] std::size_t steepest_axis(const Vec3& point) const override;
+  void chords(std::size_t axis, double u, std::span<const double> v, std::span<double> lo,
+              std::span<double> hi) const override;
+
+ private:
+  Vec3 center_;
+  double radius_;
+};
+
+}  // namespace sculpt

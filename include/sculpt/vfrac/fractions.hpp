@@ -1,0 +1,32 @@
+#pragma once
+// Volume fractions on the cells of the overlay mesh: look-up, expansion layers (the report, 2.7.5), and the fractions
+// that agree with a filtered assignment. Local.
+#include <cstdint>
+#include <span>
+
+#include "sculpt/grid/index_box.hpp"
+#include "sculpt/input/material_source.hpp"
+
+namespace sculpt {
+
+// Fraction of material m in a cell; 0 when it is not listed.
+[[nodiscard]] inline double fraction_of(const Fractions& f, LocalId cell, std::int32_t m) {
+  const auto c = static_cast<std::size_t>(cell);
+  for (auto e = static_cast<std::size_t>(f.offset[c]); e < static_cast<std::size_t>(f.offset[c + 1]); ++e)
+    if (f.material[e] == m) return f.value[e];
+  return 0;
+}
+
+// The cells of `box` (a box of the grid grown by `expand` layers per side) with the fractions of the nearest cell of
+// the source grid; `data` holds the cells of `source_box`, both x fastest.
+[[nodiscard]] Fractions expand_fractions(const Fractions& data, const IndexBox& source_box, const IndexBox& box,
+                                         std::int64_t expand, const Index3& source_cells);
+// The source cells that `box` of the grown grid takes its data from.
+[[nodiscard]] IndexBox source_of(const IndexBox& box, std::int64_t expand, const Index3& source_cells);
+
+// Fractions in which the assigned material of each cell is dominant: where the filter reassigned a cell the fractions
+// of its former dominant material and of the new one are exchanged (section 3.1 of the stage's page: an edge crossing
+// then exists on every interface face).
+void follow_assignment(Fractions& fractions, std::span<const std::int32_t> material);
+
+}  // namespace sculpt

@@ -1,0 +1,95 @@
+#include <algorithm>
+
+#include "contour/gradient.hpp"
+#include "sculpt/contour/contour.hpp"
+#include "sculpt/vfrac/fractions.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double kLeastDominance = 0.05;  // of the assigned material, so that a root exists
+constexpr double kNearest = 0.05;         // of a crossing to a cell centre, as part of the distance
+
+std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
+
+// Gradients of the cells beside interfaces, CSR per cell.
+struct GradientTable {
+  std::vector<std::int64_t> first;  // per local cell, -1 = not computed
+  std::vector<std::int32_t> count;
+  std::vector<GradientStencil::Entry> entries;
+
+  [[nodiscard]] Vec3 of(LocalId cell, std::int32_t material) const {
+    const auto start = static_cast<std::size_t>(first[at(cell)]);
+    for (std::size_t e = start; e < start + static_cast<std::size_t>(count[at(cell)]); ++e)
+      if (entries[e].material == material) return entries[e].gradient;
+    return {};
+  }
+};
+
+GradientTable gradients(const HexMesh& mesh, const Interfaces& faces, const Fractions& fractions, const NodeHexes& around) {
+  GradientTable table;
+  table.first.assign(mesh.hexes.size(), -1);
+  table.count.assign(mesh.hexes.size(), 0);
+  GradientStencil stencil(mesh, fractions, around);
+  for (const InterfaceQuad& q : faces.quads) {
+    if (mesh.layer[at(q.cell[0])] > 1 || mesh.layer[at(q.cell[1])] > 1) continue;
+    for (const LocalId c : q.cell) {
+      if (table.first[at(c)] >= 0) continue;
+      const auto& entries = stencil.at(c);
+      table.first[at(c)] = static_cast<std::int64_t>(table.entries.size());
+      table.count[at(c)] = static_cast<std::int32_t>(entries.size());
+      table.entries.insert(table.entries.end(), entries.begin(), entries.end());
+    }
+  }
+  return table;
+}
+
+Vec3 centre(const HexMesh& mesh, LocalId cell) {
+  Vec3 sum;
+  for (const LocalId n : mesh.hexes[at(cell)]) sum += mesh.position[at(n)];
+  return 0.125 * sum;
+}
+
+}  // namespace
+
+double hermite_root(double g0, double g1, double m0, double m1) {
+  if (g0 == g1) return 0.5;
+  const double drop = g1 - g0;
+  m0 = std::min(0.0, std::max(m0, 3 * drop));
+  m1 = std::min(0.0, std::max(m1, 3 * drop));
+  double low = 0, high = 1, t = g0 / (g0 - g1);
+  for (int i = 0; i < 20; ++i) {
+    const double t2 = t * t, t3 = t2 * t;
+    const double g = (2 * t3 - 3 * t2 + 1) * g0 + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * g1 + (t3 - t2) * m1;
+    if (std::fabs(g) < 1e-12) break;
+    (g > 0 ? low : high) = t;
+    const double slope = (6 * t2 - 6 * t) * (g0 - g1) + (3 * t2 - 4 * t + 1) * m0 + (3 * t2 - 2 * t) * m1;
+    const double newton = slope < 0 ? t - g / slope : -1;
+    t = newton > low && newton < high ? newton : 0.5 * (low + high);
+  }
+  return t;
+}
+
+std::vector<Crossing> edge_crossings(const HexMesh& mesh, const Interfaces& faces, const Fractions& fractions,
+                                     const NodeHexes& around) {
+  const GradientTable table = gradients(mesh, faces, fractions, around);
+  std::vector<Crossing> crossings(faces.quads.size());
+  for (std::size_t i = 0; i < faces.quads.size(); ++i) {
+    const auto& [c0, c1] = faces.quads[i].cell;
+    if (table.first[at(c0)] < 0 || table.first[at(c1)] < 0) continue;
+    if (mesh.layer[at(c0)] > 1 || mesh.layer[at(c1)] > 1) continue;
+    const std::int32_t a = mesh.material[at(c0)], b = mesh.material[at(c1)];
+    const double g0 = std::max(fraction_of(fractions, c0, a) - fraction_of(fractions, c0, b), kLeastDominance);
+    const double g1 = std::min(fraction_of(fractions, c1, a) - fraction_of(fractions, c1, b), -kLeastDominance);
+    const Vec3 slope0 = table.of(c0, a) - table.of(c0, b), slope1 = table.of(c1, a) - table.of(c1, b);
+    const Vec3 from = centre(mesh, c0), step = centre(mesh, c1) - from;
+    const double t = std::clamp(hermite_root(g0, g1, dot(slope0, step), dot(slope1, step)), kNearest, 1 - kNearest);
+    Vec3 normal = (t - 1) * slope0 - t * slope1;  // downhill in a - b: from a to b
+    if (norm(normal) * norm(step) < 1e-6) normal = step;
+    normal = unit(normal);
+    crossings[i] = {from + t * step, a < b ? normal : -normal};
+  }
+  return crossings;
+}
+
+}  // namespace sculpt

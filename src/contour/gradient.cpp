@@ -1,0 +1,103 @@
+#include "contour/gradient.hpp"
+
+#include <algorithm>
+
+#include "sculpt/vfrac/fractions.hpp"
+
+namespace sculpt {
+namespace {
+
+struct Symmetric {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+};
+
+// Solves the normal equations by Cholesky; directions without extent (zero pivots) get a zero component.
+Vec3 solve(const Symmetric& a, const Vec3& b) {
+  const double cut = 1e-10 * (a.xx + a.yy + a.zz);
+  const double lx = a.xx > cut ? std::sqrt(a.xx) : 0, ix = lx > 0 ? 1 / lx : 0;
+  const double lyx = a.xy * ix, lzx = a.xz * ix;
+  const double y = a.yy - lyx * lyx, ly = y > cut ? std::sqrt(y) : 0, iy = ly > 0 ? 1 / ly : 0;
+  const double lzy = (a.yz - lzx * lyx) * iy;
+  const double z = a.zz - lzx * lzx - lzy * lzy, iz = z > cut ? 1 / std::sqrt(z) : 0;
+  const double u = b.x * ix, v = (b.y - lyx * u) * iy, w = (b.z - lzx * u - lzy * v) * iz;
+  Vec3 g;
+  g.z = w * iz;
+  g.y = (v - lzy * g.z) * iy;
+  g.x = (u - lyx * g.y - lzx * g.z) * ix;
+  return g;
+}
+
+}  // namespace
+
+Vec3 GradientStencil::centre(LocalId cell) const {
+  Vec3 sum;
+  for (const LocalId n : mesh_.hexes[static_cast<std::size_t>(cell)]) sum += mesh_.position[static_cast<std::size_t>(n)];
+  return 0.125 * sum;
+}
+
+void GradientStencil::gather(LocalId cell) {
+  cells_.clear();
+  for (const LocalId n : mesh_.hexes[static_cast<std::size_t>(cell)])
+    for (const std::int32_t item : around_[n]) cells_.push_back(item / 8);
+  std::sort(cells_.begin(), cells_.end());
+  cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+  const Vec3 here = centre(cell);
+  neighbours_.clear();
+  for (const LocalId c : cells_) neighbours_.push_back({c, centre(c) - here});
+}
+
+// Images of the cells that touch a side of the box which the cell touches as well, for every set of such sides.
+void GradientStencil::mirror(LocalId cell) {
+  const Hex& hex = mesh_.hexes[static_cast<std::size_t>(cell)];
+  for (std::size_t d = 0; d < 3; ++d)
+    for (const std::uint8_t side : {static_cast<std::uint8_t>(1U << (2 * d)), static_cast<std::uint8_t>(2U << (2 * d))}) {
+      const auto on_side = [&](LocalId n) { return (mesh_.box_sides[static_cast<std::size_t>(n)] & side) != 0; };
+      const auto touch = std::find_if(hex.begin(), hex.end(), on_side);
+      if (touch == hex.end()) continue;
+      const double plane = mesh_.position[static_cast<std::size_t>(*touch)][d] - centre(cell)[d];
+      const std::size_t before = neighbours_.size();
+      for (std::size_t i = 0; i < before; ++i) {
+        const Hex& other = mesh_.hexes[static_cast<std::size_t>(neighbours_[i].cell)];
+        // An image across the opposite side of a one-cell layer is no neighbour.
+        if (std::none_of(other.begin(), other.end(), on_side) || neighbours_[i].offset[d] * plane < 0) continue;
+        Neighbour image = neighbours_[i];
+        image.offset[d] = 2 * plane - image.offset[d];
+        neighbours_.push_back(image);
+      }
+    }
+}
+
+const std::vector<GradientStencil::Entry>& GradientStencil::at(LocalId cell) {
+  gather(cell);
+  entries_.clear();
+  for (const LocalId c : cells_) {
+    const auto first = fractions_.offset[static_cast<std::size_t>(c)], last = fractions_.offset[static_cast<std::size_t>(c) + 1];
+    for (auto e = first; e < last; ++e) {
+      const std::int32_t m = fractions_.material[static_cast<std::size_t>(e)];
+      if (std::none_of(entries_.begin(), entries_.end(), [m](const Entry& x) { return x.material == m; }))
+        entries_.push_back({m, {}});
+    }
+  }
+  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.material < b.material; });
+  mirror(cell);
+
+  Symmetric matrix;
+  for (const Neighbour& n : neighbours_) {
+    const Vec3& d = n.offset;
+    matrix.xx += d.x * d.x;
+    matrix.xy += d.x * d.y;
+    matrix.xz += d.x * d.z;
+    matrix.yy += d.y * d.y;
+    matrix.yz += d.y * d.z;
+    matrix.zz += d.z * d.z;
+  }
+  for (Entry& entry : entries_) {
+    const double here = fraction_of(fractions_, cell, entry.material);
+    Vec3 side;
+    for (const Neighbour& n : neighbours_) side += (fraction_of(fractions_, n.cell, entry.material) - here) * n.offset;
+    entry.gradient = solve(matrix, side);
+  }
+  return entries_;
+}
+
+}  // namespace sculpt

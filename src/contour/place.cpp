@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <array>
+
+#include "sculpt/contour/contour.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double kFarthest = 0.45;   // of a cell, per axis
+constexpr double kParallel = 0.2;    // sine of the angle below which two planes have no useful intersection
+
+std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
+
+// A plane that stands for all quads at the node between the same two materials.
+struct Plane {
+  std::array<std::int32_t, 2> materials;
+  Vec3 point, normal;
+  int count = 0;
+};
+
+// Mean of the projections to the planes of the single crossings; crossings whose normal runs along their line weigh more.
+Vec3 on_surface(const Vec3& p, const HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
+                std::span<const LocalId> items) {
+  Vec3 sum;
+  double weight = 0;
+  for (const LocalId item : items) {
+    const InterfaceQuad& q = faces.quads[at(item / 4)];
+    const Crossing& x = crossings[at(item / 4)];
+    const Vec3 along = unit(cross(mesh.position[at(q.node[2])] - mesh.position[at(q.node[0])],
+                                  mesh.position[at(q.node[3])] - mesh.position[at(q.node[1])]));
+    const double w = std::fabs(dot(along, x.normal)) + 1e-3;
+    sum += w * (p - dot(p - x.point, x.normal) * x.normal);
+    weight += w;
+  }
+  return (1 / weight) * sum;
+}
+
+void merge_planes(const HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
+                  std::span<const LocalId> items, std::vector<Plane>& planes) {
+  planes.clear();
+  for (const LocalId item : items) {
+    const auto pair = Interfaces::materials(mesh, faces.quads[at(item / 4)]);
+    auto plane = std::find_if(planes.begin(), planes.end(), [&](const Plane& x) { return x.materials == pair; });
+    if (plane == planes.end()) plane = planes.insert(planes.end(), {pair, {}, {}, 0});
+    plane->point += crossings[at(item / 4)].point;
+    plane->normal += crossings[at(item / 4)].normal;
+    ++plane->count;
+  }
+  std::sort(planes.begin(), planes.end(), [](const Plane& a, const Plane& b) { return a.materials < b.materials; });
+  for (Plane& plane : planes) {
+    plane.point = (1.0 / plane.count) * plane.point;
+    plane.normal = unit(plane.normal);
+  }
+}
+
+// Mean of the nearest points on the pairwise intersections; false when no two planes intersect well.
+bool on_intersections(const Vec3& p, const std::vector<Plane>& planes, Vec3& result) {
+  Vec3 sum;
+  double weight = 0;
+  for (std::size_t a = 0; a < planes.size(); ++a)
+    for (std::size_t b = a + 1; b < planes.size(); ++b) {
+      const double sine = norm(cross(planes[a].normal, planes[b].normal));
+      if (sine < kParallel) continue;
+      const double cosine = dot(planes[a].normal, planes[b].normal), det = 1 - cosine * cosine;
+      const double ra = dot(p - planes[a].point, planes[a].normal), rb = dot(p - planes[b].point, planes[b].normal);
+      const double la = (ra - cosine * rb) / det, lb = (rb - cosine * ra) / det;
+      sum += sine * (p - la * planes[a].normal - lb * planes[b].normal);
+      weight += sine;
+    }
+  if (weight > 0) result = (1 / weight) * sum;
+  return weight > 0;
+}
+
+}  // namespace
+
+void place_nodes(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings) {
+  const int rank = mesh.node_exchange.comm().rank();
+  const Vec3 unit_of{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
+  std::vector<Vec3> placed(faces.nodes.size());
+  std::vector<Plane> planes;
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
+    const LocalId n = faces.nodes[i];
+    const Vec3 p = placed[i] = mesh.position[at(n)];
+    if (mesh.node_owner[at(n)] != rank) continue;
+    const auto items = faces.node_quads[i];
+    merge_planes(mesh, faces, crossings, items, planes);
+    Vec3 target;
+    if (planes.size() == 1 || !on_intersections(p, planes, target)) target = on_surface(p, mesh, faces, crossings, items);
+    Vec3 move = held_on_box(target - p, mesh.box_sides[at(n)]);
+    const double most = largest(scaled(move, unit_of));
+    if (most > kFarthest) move = (kFarthest / most) * move;
+    placed[i] = p + move;
+  }
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i) mesh.position[at(faces.nodes[i])] = placed[i];
+  mesh.node_exchange.copy_to_ghosts(mesh.position);
+}
+
+}  // namespace sculpt

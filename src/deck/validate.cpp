@@ -1,0 +1,185 @@
+// Defaults that depend on the input, unsupported options, and the rules between options.
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+
+#include "deck/value.hpp"
+#include "sculpt/base/error.hpp"
+#include "sculpt/deck/options.hpp"
+#include "sculpt/deck/parse.hpp"
+
+namespace sculpt {
+
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+constexpr std::string_view kSources[] = {"stl_file",       "diatom_file", "input_vfrac", "input_micro",
+                                         "input_cart_exo", "input_spn",   "input_stitch"};
+
+enum class Tell {
+  kGiven,    // the options that were given
+  kMissing,  // also the names of those that were not
+  kAll,      // the values of all of them
+};
+
+// A rule between options: when `broken`, the sentence is shown together with the options and their places.
+struct Rule {
+  bool (*broken)(const Deck&);
+  Names options;
+  std::string_view sentence;
+  Tell tell = Tell::kGiven;
+};
+
+bool all_given(const Deck& deck, std::initializer_list<std::string_view> options) {
+  for (const std::string_view option : options)
+    if (!deck.given(option)) return false;
+  return true;
+}
+
+int count_sources(const Deck& deck) {
+  int count = 0;
+  for (const std::string_view source : kSources) count += deck.given(source) ? 1 : 0;
+  return count;
+}
+
+bool has_counts(const Deck& deck) { return all_given(deck, {"nelx", "nely", "nelz"}); }
+bool has_box(const Deck& deck) { return all_given(deck, {"xmin", "ymin", "zmin", "xmax", "ymax", "zmax"}); }
+
+// More cells than a 64-bit id can number with room to spare. The counts are at least 1 where they are given.
+bool too_many_cells(const Deck& deck) {
+  constexpr std::int64_t kLimit = std::int64_t{1} << 62;
+  return deck.nelx > kLimit / deck.nely / deck.nelz;
+}
+
+bool wrong_parts(const Deck& deck) {
+  const std::int64_t plane = static_cast<std::int64_t>(deck.iproc) * deck.jproc;  // at most 1e12
+  return plane > deck.num_procs || plane * deck.kproc != deck.num_procs;
+}
+
+// Some but not all of the three: the missing ones are chosen, so the product must divide the number of ranks.
+bool wrong_part(const Deck& deck) {
+  std::int64_t product = 1;
+  for (const int parts : {deck.iproc, deck.jproc, deck.kproc})
+    if (parts > 0 && product <= deck.num_procs) product *= parts;
+  return product > deck.num_procs || deck.num_procs % product != 0;
+}
+
+bool empty_x(const Deck& deck) { return all_given(deck, {"xmin", "xmax"}) && deck.xmin >= deck.xmax; }
+bool empty_y(const Deck& deck) { return all_given(deck, {"ymin", "ymax"}) && deck.ymin >= deck.ymax; }
+bool empty_z(const Deck& deck) { return all_given(deck, {"zmin", "zmax"}) && deck.zmin >= deck.zmax; }
+
+const std::vector<Rule>& rules() {
+  static const Names counts = {"nelx", "nely", "nelz"};
+  static const Names box = {"xmin", "ymin", "zmin", "xmax", "ymax", "zmax"};
+  static const std::vector<Rule> table = {
+      {[](const Deck& d) { return count_sources(d) == 0; },
+       {},
+       "no input geometry; give one of stl_file, diatom_file, input_vfrac, input_micro, input_cart_exo, "
+       "input_spn or input_stitch"},
+      {[](const Deck& d) { return count_sources(d) > 1; }, Names(std::begin(kSources), std::end(kSources)),
+       "only one input geometry is allowed"},
+      {[](const Deck& d) { return d.given("input_spn") && !has_counts(d); }, counts,
+       "input_spn needs the number of cells nelx, nely and nelz", Tell::kMissing},
+      {[](const Deck& d) { return d.given("diatom_file") && !has_counts(d); }, counts,
+       "diatom_file needs the number of cells nelx, nely and nelz", Tell::kMissing},
+      {[](const Deck& d) { return d.given("diatom_file") && !has_box(d); }, box,
+       "diatom_file needs the box of the grid, xmin, ymin, zmin, xmax, ymax and zmax", Tell::kMissing},
+      {empty_x, {"xmin", "xmax"}, "xmin must be smaller than xmax"},
+      {empty_y, {"ymin", "ymax"}, "ymin must be smaller than ymax"},
+      {empty_z, {"zmin", "zmax"}, "zmin must be smaller than zmax"},
+      {[](const Deck& d) { return has_counts(d) && too_many_cells(d); }, counts,
+       "the grid has more cells than can be numbered, nelx * nely * nelz must not exceed 2^62"},
+      {[](const Deck& d) {
+         return all_given(d, {"iproc", "jproc", "kproc"}) && wrong_parts(d);
+       },
+       {"iproc", "jproc", "kproc", "num_procs"},
+       "iproc * jproc * kproc must be the number of processes",
+       Tell::kAll},
+      {[](const Deck& d) {
+         return !all_given(d, {"iproc", "jproc", "kproc"}) && wrong_part(d);
+       },
+       {"iproc", "jproc", "kproc", "num_procs"},
+       "the product of the given ones of iproc, jproc and kproc must divide the number of processes",
+       Tell::kAll},
+      {[](const Deck& d) { return d.xscale <= 0 || d.yscale <= 0 || d.zscale <= 0 || d.scale <= 0; },
+       {"xscale", "yscale", "zscale", "scale"},
+       "scale factors must be positive"},
+  };
+  return table;
+}
+
+// "; given: nelx = 3 (line 2 of a.i); not given: nely, nelz"
+std::string describe(const Deck& deck, const Names& options, Tell tell) {
+  std::vector<std::string> given, missing;
+  for (const std::string_view name : options) {
+    if (!deck.given(name) && tell != Tell::kAll) {
+      missing.emplace_back(name);
+      continue;
+    }
+    const std::vector<std::string> texts = deck_texts(deck, *find_option(name));
+    const std::string place = deck.given(name) ? deck.given_options.place(name) : "not given";
+    given.push_back(fmt::format("{} = {} ({})", name, texts.empty() ? "" : texts[0], place));
+  }
+  std::string result;
+  if (!given.empty())
+    result += fmt::format("; {}: {}", tell == Tell::kAll ? "found" : "given", fmt::join(given, ", "));
+  if (tell == Tell::kMissing) result += fmt::format("; not given: {}", fmt::join(missing, ", "));
+  return result;
+}
+
+void refuse_unsupported(const Deck& deck) {
+  for (const OptionSpec& option : option_table()) {
+    if (!deck.given(option.name)) continue;
+    if (!option.supported) {
+      const auto* flag = std::get_if<bool Deck::*>(&option.slot);
+      const bool harmless = flag != nullptr ? !(deck.**flag) : equals_default(deck, option);
+      if (!harmless)
+        throw Error(fmt::format("option '{}' ({}) is not supported yet", option.name,
+                                deck.given_options.place(option.name)));
+    } else if (!option.values.empty()) {
+      const EnumValue* value = find_value(option, deck.*std::get<int Deck::*>(option.slot));
+      if (value != nullptr && !value->supported)
+        throw Error(fmt::format("option '{}' ({}): value {} ({}) is not supported yet", option.name,
+                                deck.given_options.place(option.name), value->name, value->number));
+    }
+  }
+}
+
+void redefault(Deck& deck, std::string_view option, auto& field, auto value) {
+  if (deck.given(option) || field == value) return;
+  field = value;
+  deck.redefaulted.emplace(option);
+}
+
+// The name of a file without folder and extension; empty when nothing is left.
+std::string stem(const std::string& file_name) { return std::filesystem::path(file_name).stem().string(); }
+
+std::string default_base_name(const Deck& deck) {
+  std::string base = stem(deck.input_file);
+  for (const std::string* name : {&deck.stl_file, &deck.diatom_file, &deck.input_vfrac, &deck.input_micro,
+                                  &deck.input_cart_exo, &deck.input_spn, &deck.input_stitch})
+    if (base.empty()) base = stem(*name);
+  return base.empty() ? "sculpt" : base;
+}
+
+}  // namespace
+
+void apply_input_defaults(Deck& deck) {
+  redefault(deck, "exodus_file", deck.exodus_file, default_base_name(deck));
+  if (!deck.given("input_spn")) return;
+  redefault(deck, "smooth", deck.smooth, static_cast<int>(kSmoothNoSurfaceProjections));
+  redefault(deck, "csmooth", deck.csmooth, static_cast<int>(kCsmoothHermite));
+  redefault(deck, "laplacian_iters", deck.laplacian_iters, 10);
+}
+
+void validate(const Deck& deck) {
+  refuse_unsupported(deck);
+  for (const Rule& rule : rules()) {
+    if (!rule.broken(deck)) continue;
+    throw Error(std::string(rule.sentence) + describe(deck, rule.options, rule.tell));
+  }
+}
+
+}  // namespace sculpt

@@ -1,0 +1,62 @@
+#include <algorithm>
+
+#include "sculpt/filter/filter.hpp"
+#include "sculpt/vfrac/fractions.hpp"
+
+namespace sculpt {
+namespace {
+
+double in_neighbours(const Fractions& f, const std::array<LocalId, 6>& neighbours, std::int32_t m) {
+  std::array<LocalId, 6> sorted = neighbours;  // canonical order of the sum
+  std::sort(sorted.begin(), sorted.end());
+  double sum = 0;
+  for (const LocalId n : sorted)
+    if (n != kNone) sum += fraction_of(f, n, m);
+  return sum;
+}
+
+}  // namespace
+
+void assign_materials(HexMesh& mesh, const Fractions& fractions, const FaceNeighbours& neighbours) {
+  mesh.material.resize(mesh.hexes.size());
+  for (std::size_t c = 0; c < mesh.hexes.size(); ++c) {
+    const auto first = static_cast<std::size_t>(fractions.offset[c]), last = static_cast<std::size_t>(fractions.offset[c + 1]);
+    std::size_t best = first;
+    double around_best = -1;
+    for (std::size_t e = first + 1; e < last; ++e) {
+      if (fractions.value[e] < fractions.value[best]) continue;
+      if (fractions.value[e] == fractions.value[best]) {
+        if (around_best < 0) around_best = in_neighbours(fractions, neighbours[c], fractions.material[best]);
+        const double around = in_neighbours(fractions, neighbours[c], fractions.material[e]);
+        if (around <= around_best) continue;
+        around_best = around;
+      } else {
+        around_best = -1;
+      }
+      best = e;
+    }
+    mesh.material[c] = fractions.material[best];
+  }
+  mesh.hex_exchange.copy_to_ghosts(mesh.material);  // the outermost ghosts lack neighbours
+}
+
+std::int64_t shave_boundary(HexMesh& mesh, const FaceNeighbours& neighbours, std::int32_t to) {
+  std::vector<LocalId> isolated;
+  for (LocalId c = 0; c < mesh.size(); ++c) {
+    const auto cell = static_cast<std::size_t>(c);
+    if (mesh.layer[cell] != 0) continue;
+    bool on_box = false, alone = true, has_neighbour = false;
+    for (const LocalId n : neighbours[cell]) {
+      on_box = on_box || n == kNone;
+      if (n == kNone) continue;
+      has_neighbour = true;
+      alone = alone && mesh.material[static_cast<std::size_t>(n)] != mesh.material[cell];
+    }
+    if (on_box && alone && has_neighbour && mesh.material[cell] != to) isolated.push_back(c);
+  }
+  for (const LocalId c : isolated) mesh.material[static_cast<std::size_t>(c)] = to;
+  mesh.hex_exchange.copy_to_ghosts(mesh.material);
+  return mesh.hex_exchange.comm().sum(static_cast<std::int64_t>(isolated.size()));
+}
+
+}  // namespace sculpt

@@ -1,0 +1,53 @@
+#include "sculpt/geom/sphere.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sculpt {
+
+Box Sphere::bounds() const {
+  const Vec3 r{radius_, radius_, radius_};
+  return {center_ - r, center_ + r};
+}
+
+bool Sphere::contains(const Box& box) const {
+  Vec3 farthest;
+  for (std::size_t d = 0; d < 3; ++d)
+    farthest[d] = std::max(std::fabs(box.lo[d] - center_[d]), std::fabs(box.hi[d] - center_[d]));
+  return dot(farthest, farthest) <= radius_ * radius_;
+}
+
+bool Sphere::misses(const Box& box) const {
+  Vec3 nearest;
+  for (std::size_t d = 0; d < 3; ++d)
+    nearest[d] = std::max({box.lo[d] - center_[d], 0.0, center_[d] - box.hi[d]});
+  return dot(nearest, nearest) >= radius_ * radius_;
+}
+
+std::size_t Sphere::steepest_axis(const Vec3& point) const {
+  const Vec3 normal = point - center_;
+  std::size_t axis = 0;
+  for (std::size_t d = 1; d < 3; ++d)
+    if (std::fabs(normal[d]) > std::fabs(normal[axis])) axis = d;
+  return axis;
+}
+
+void Sphere::chords(std::size_t axis, double u, std::span<const double> v, std::span<double> lo,
+                    std::span<double> hi) const {
+  const double along = center_[axis], across = u - center_[(axis + 1) % 3],
+               centre_v = center_[(axis + 2) % 3];
+  const double square = radius_ * radius_ - across * across;
+  const double* const at = v.data();
+  double* const from = lo.data();
+  double* const to = hi.data();
+  const std::size_t count = v.size();
+  for (std::size_t l = 0; l < count; ++l) {
+    const double w = at[l] - centre_v;
+    const double rest = square - w * w;
+    const double half = std::sqrt(rest > 0.0 ? rest : 0.0);
+    from[l] = along - half;
+    to[l] = along + half;
+  }
+}
+
+}  // namespace sculpt

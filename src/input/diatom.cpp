@@ -1,0 +1,88 @@
+#include "input/diatom.hpp"
+
+#include <algorithm>
+
+#include "input/deck_grid.hpp"
+#include "input/diatom_file.hpp"
+#include "input/shape_fractions.hpp"
+#include "input/text_file.hpp"
+
+namespace sculpt {
+namespace {
+
+class DiatomSource final : public MaterialSource {
+ public:
+  DiatomSource(const Deck& deck, std::vector<DiatomShape> shapes, Grid grid, const Log& log)
+      : grid_(std::move(grid)), log_(log) {
+    for (const DiatomShape& shape : shapes) table_.block_id.push_back(shape.material);
+    std::sort(table_.block_id.begin(), table_.block_id.end());
+    table_.block_id.erase(std::unique(table_.block_id.begin(), table_.block_id.end()), table_.block_id.end());
+    add_void(deck);
+    for (DiatomShape& shape : shapes) shapes_.push_back({std::move(shape.shape), dense(shape.material)});
+  }
+
+  [[nodiscard]] const Grid& grid() const override { return grid_; }
+
+  [[nodiscard]] MaterialData read(const Comm& comm, std::span<const IndexBox> wanted) override {
+    log_.line("inserting volume fractions...");
+    MaterialData data;
+    data.table = table_;
+    collectively(comm, "inserting volume fractions", [&] {
+      data.fractions =
+          shape_fractions(grid_, wanted[static_cast<std::size_t>(comm.rank())], shapes_, outside_);
+    });
+    return data;
+  }
+
+ private:
+  [[nodiscard]] std::int32_t dense(std::int64_t id) const {
+    const auto at = std::lower_bound(table_.block_id.begin(), table_.block_id.end(), id);
+    return static_cast<std::int32_t>(at - table_.block_id.begin());
+  }
+
+  // A meshed void may join a material of the user's. A void that is not meshed stays apart: void_mat names
+  // the block of the meshed void only.
+  void add_void(const Deck& deck) {
+    std::vector<std::int64_t>& ids = table_.block_id;
+    std::int64_t id = deck.given("void_mat") ? deck.void_mat : ids.back() + 1;
+    const bool taken = std::binary_search(ids.begin(), ids.end(), id);
+    if (taken && !deck.mesh_void) id = ids.back() + 1;
+    if (!taken || !deck.mesh_void) {
+      ids.insert(std::lower_bound(ids.begin(), ids.end(), id), id);
+      table_.void_material = dense(id);
+    }
+    outside_ = dense(id);
+  }
+
+  Grid grid_;
+  Log log_;
+  MaterialTable table_;
+  std::vector<InsertedShape> shapes_;
+  std::int32_t outside_ = 0;  // dense index of what no shape covers
+};
+
+}  // namespace
+
+std::unique_ptr<MaterialSource> open_diatom(const Comm& comm, const Deck& deck, const Log& log) {
+  const std::string& path = deck.diatom_file;
+  Grid grid;
+  std::string text;
+  log.line("initializing geometry...");
+  log.line(" Parsing diatom input");
+  collectively(comm, "opening " + path, [&] {
+    grid = deck_box_grid(deck, "diatom_file");
+    if (comm.rank() != 0) return;
+    const TextFile file(path, "diatom_file");
+    text.resize(static_cast<std::size_t>(file.size()));
+    file.read(0, text);
+  });
+  log.line(" Finished loading diatom master buffer");
+  text = comm.broadcast(std::move(text), 0);
+  log.line(" Finished communicating diatom master buffer");
+  std::vector<DiatomShape> shapes;
+  collectively(comm, "reading " + path, [&] { shapes = parse_diatom(text, path); });
+  log.line(" Finished creating diatoms");
+  return std::make_unique<DiatomSource>(deck, std::move(shapes), std::move(grid), log);
+}
+
+}  // namespace sculpt

@@ -1,0 +1,13 @@
+#pragma once
+// `diatom_file`: materials given by analytic shapes, sampled on the grid of nelx..nelz and xmin..zmax. What
+// no shape covers is the void.
+#include <memory>
+
+#include "sculpt/input/material_source.hpp"
+
+namespace sculpt {
+
+// Collective. Throws AgreedError.
+[[nodiscard]] std::unique_ptr<MaterialSource> open_diatom(const Comm& comm, const Deck& deck, const Log& log);
+
+}  // namespace sculpt

@@ -1,0 +1,220 @@
+#include "sculpt/pipeline/run.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <ctime>
+#include <limits>
+
+#include "pipeline/console.hpp"
+#include "sculpt/brep/interfaces.hpp"
+#include "sculpt/contour/contour.hpp"
+#include "sculpt/contour/interface_smoothing.hpp"
+#include "sculpt/distribute/cartesian.hpp"
+#include "sculpt/filter/filter.hpp"
+#include "sculpt/input/material_source.hpp"
+#include "sculpt/pillow/pillow.hpp"
+#include "sculpt/pipeline/stages.hpp"
+#include "sculpt/smooth/smooth.hpp"
+#include "sculpt/vfrac/fractions.hpp"
+#include "sculpt/write/write_mesh.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double kFirstOffset = 0.3, kSecondOffset = 0.5;  // of pillow copies towards the inside
+
+// The overlay mesh with its materials.
+struct Overlay {
+  HexMesh cells;
+  Fractions fractions;
+  MaterialTable materials;
+};
+
+bool surface_pillows(const Deck& deck) { return deck.pillow_surfaces || deck.pillow == kPillowSurfaces; }
+
+// The source's grid with the expansion layers around it.
+Grid overlay_grid(const Deck& deck, const Grid& source) {
+  if (deck.micro_expand == 0) return source;
+  const Vec3 h = source.cell_size();
+  Index3 cells = source.cells;
+  Vec3 origin;
+  for (std::size_t d = 0; d < 3; ++d) {
+    cells[d] += 2 * deck.micro_expand;
+    origin[d] = source.planes[d].front() - deck.micro_expand * h[d];
+  }
+  return uniform_grid(cells, origin, h);
+}
+
+Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages) {
+  const auto source = open_source(comm, deck, log);
+  const Grid grid = overlay_grid(deck, source->grid());
+  const CartesianParts parts = cut_grid(grid.cells, comm.size(), {deck.iproc, deck.jproc, deck.kproc});
+  print_decomposition(log, parts);
+  const int layers = surface_pillows(deck) ? 3 : 2;
+
+  std::vector<IndexBox> wanted;
+  for (int r = 0; r < comm.size(); ++r)
+    wanted.push_back(source_of(parts.ghosted(r, layers), deck.micro_expand, source->grid().cells));
+  MaterialData data = source->read(comm, wanted);
+  stages.end("read input");
+
+  Overlay overlay{lattice_mesh(comm, grid, parts, layers), std::move(data.fractions), std::move(data.table)};
+  if (deck.micro_expand > 0)
+    overlay.fractions = expand_fractions(overlay.fractions, wanted[static_cast<std::size_t>(comm.rank())],
+                                         parts.ghosted(comm.rank(), layers), deck.micro_expand, source->grid().cells);
+  stages.end("distribute");
+  return overlay;
+}
+
+// 1 for every cell that is no part of the mesh.
+std::vector<std::uint8_t> unmeshed_cells(const Deck& deck, const Overlay& overlay) {
+  std::vector<std::uint8_t> drop(overlay.cells.hexes.size(), 0);
+  for (std::size_t c = 0; c < drop.size(); ++c) {
+    const bool is_void = overlay.materials.void_material && overlay.cells.material[c] == *overlay.materials.void_material;
+    const bool mixed = overlay.fractions.offset[c + 1] - overlay.fractions.offset[c] > 1;
+    drop[c] = (is_void && !deck.mesh_void) || (mixed && deck.stair == kStairInterior);
+  }
+  return drop;
+}
+
+void classify(const Comm& comm, const Deck& deck, Overlay& overlay, const Log& log, Stages& stages) {
+  HexMesh& cells = overlay.cells;
+  const FaceNeighbours neighbours = face_neighbours(cells);
+  log.line("(2/9) classifying materials...");
+  assign_materials(cells, overlay.fractions, neighbours);
+  if (deck.micro_shave) {
+    const bool first_is_void = overlay.materials.void_material == 0 && overlay.materials.block_id.size() > 1;
+    const std::int64_t shaved = shave_boundary(cells, neighbours, first_is_void ? 1 : 0);
+    log.line("  micro_shave: {} isolated cells at the boundary reassigned", shaved);
+  }
+  stages.end("classify materials");
+  log.line("(3/9) resolving non-manifolds...");
+  if (deck.stair == kStairFast) return;
+  const ManifoldReport report = resolve_non_manifold(cells, overlay.fractions, neighbours, NodeHexes(cells));
+  log.line("  {} non-manifold nodes, {} cells reassigned in {} passes", report.bad_nodes, report.changed_cells, report.passes);
+  if (report.forced_nodes > 0) log.line("  WARNING: {} nodes were settled by merging their materials", report.forced_nodes);
+  follow_assignment(overlay.fractions, cells.material);
+  collectively(comm, "resolving non-manifolds", [&] {
+    check(interfaces_are_manifold(cells, neighbours, NodeHexes(cells)), "a material interface is not manifold");
+  });
+  stages.end("resolve non-manifolds");
+}
+
+// Interface nodes placed and smoothed on the overlay grid; what the smoother must know of them.
+struct Contour {
+  Interfaces faces;
+  std::vector<Weight> weights;
+};
+
+Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stages) {
+  HexMesh& cells = overlay.cells;
+  Contour c;
+  c.faces = trace_interfaces(cells, face_neighbours(cells));
+  log.line("(4/9) computing dual edge intersections...");
+  const std::vector<Crossing> crossings = edge_crossings(cells, c.faces, overlay.fractions, NodeHexes(cells));
+  log.line("(5/9) computing material interfaces...");
+  std::vector<Vec3> grid_position;
+  for (const LocalId n : c.faces.nodes) grid_position.push_back(cells.position[static_cast<std::size_t>(n)]);
+  place_nodes(cells, c.faces, crossings);
+  stages.end("contour");
+  if (deck.smooth != kSmoothOff) smooth_interface(cells, c.faces, grid_position, interface_smoothing(deck));
+  c.weights = deviation_weights(cells, c.faces);
+  stages.end("smooth interfaces");
+  return c;
+}
+
+Geometry geometry_of(const HexMesh& mesh, const std::vector<LocalId>& original, const HexMesh& cells, const Contour& contour) {
+  Geometry g;
+  g.index.assign(mesh.position.size(), kNone);
+  for (std::size_t n = 0; n < original.size(); ++n) {
+    if (original[n] == kNone) continue;
+    const LocalId entry = contour.faces.index_of[static_cast<std::size_t>(original[n])];
+    if (entry == kNone) continue;
+    g.index[n] = static_cast<LocalId>(g.target.size());
+    g.target.push_back(cells.position[static_cast<std::size_t>(original[n])]);
+    g.weight.push_back(contour.weights[static_cast<std::size_t>(entry)]);
+    g.on_curve.push_back(contour.faces.kind[static_cast<std::size_t>(entry)] != NodeClass::kSurface);
+  }
+  return g;
+}
+
+// Hexes of the cells, without smoothing (stair) or with buffer layers and smoothing.
+HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, const Log& log, Stages& stages) {
+  const std::vector<std::uint8_t> drop = unmeshed_cells(deck, overlay);
+  if (deck.stair != kStairOff) {
+    print_skipped_steps(log);
+    const std::vector<std::int32_t> none(drop.size(), -1);
+    HexMesh mesh = pillow(comm, overlay.cells, none, drop, 0).mesh;
+    stages.end("generate hexes");
+    return mesh;
+  }
+  const Contour shape = contour(deck, overlay, log, stages);
+  overlay.fractions = {};
+  log.line("(6/9) generating geometry...");
+  log.line("(7/9) generating buffer hexes...");
+  log.line("(8/9) generating interior hexes...");
+  std::vector<std::int32_t> label = overlay.cells.material;
+  for (std::size_t c = 0; c < label.size(); ++c)
+    if (drop[c]) label[c] = -1;
+  Pillowed result = pillow(comm, overlay.cells, label, drop, kFirstOffset);
+  if (surface_pillows(deck)) {
+    const std::vector<std::uint8_t> keep(result.mesh.hexes.size(), 0);
+    Pillowed second = pillow(comm, result.mesh, surface_labels(result.mesh), keep, kSecondOffset);
+    for (LocalId& n : second.original)
+      if (n != kNone) n = result.original[static_cast<std::size_t>(n)];
+    result = std::move(second);
+  }
+  const Geometry geometry = geometry_of(result.mesh, result.original, overlay.cells, shape);
+  overlay.cells = {};
+  stages.end("generate hexes");
+  log.line("(9/9) begin smoothing...");
+  if (deck.smooth != kSmoothOff) {
+    print_smoothing_banner(log, deck);
+    smooth_mesh(result.mesh, geometry, smooth_options(deck), log);
+  }
+  stages.end("smooth volume");
+  return std::move(result.mesh);
+}
+
+WriteOptions write_options(const Deck& deck, const MaterialTable& materials) {
+  WriteOptions w;
+  w.base = deck.exodus_file;
+  w.large = deck.large_exodus;
+  w.scale = {deck.scale * deck.xscale, deck.scale * deck.yscale, deck.scale * deck.zscale};
+  w.translate = {deck.xtranslate, deck.ytranslate, deck.ztranslate};
+  w.block_id = materials.block_id;
+  for (const IdName& n : deck.material_name) w.block_names[n.id] = n.name;
+  for (const IdName& n : deck.sideset_name) w.side_set_names[n.id] = n.name;
+  return w;
+}
+
+}  // namespace
+
+void run(const Comm& comm, const Deck& deck) {
+  const Log log(comm.rank() == 0 && !deck.quiet);
+  Stages stages;
+  check_output_folder(comm, deck.exodus_file);
+  Overlay overlay = read_overlay(comm, deck, log, stages);
+  log.line("begin SCULPT meshing...");
+  log.line("(1/9) computing normals...");
+  const MaterialTable materials = overlay.materials;
+  classify(comm, deck, overlay, log, stages);
+  const VolumeTable input_volumes(comm, overlay.cells, overlay.fractions, materials);
+  const HexMesh mesh = build_mesh(comm, deck, std::move(overlay), log, stages);
+
+  log.line("building exodus mesh...");
+  log.line("generating global ids...");
+  const QualitySummary quality = summarise(comm, mesh);
+  const std::int64_t folded = count_not_positive_inside(comm, mesh);
+  stages.end("check quality");
+  if (comm.size() > 1) log.line("generating parallel communication maps...");
+  const WriteSummary written = write_mesh(comm, mesh, {}, write_options(deck, materials));
+  stages.end("write files");
+  if (deck.compare_volume) input_volumes.compare(comm, mesh, log);
+  print_mesh_summary(comm, log, deck, written, quality, folded);
+  stages.print(comm, log, written.hexes);
+  print_end(comm, log, stages.seconds());
+}
+
+}  // namespace sculpt

@@ -1,0 +1,57 @@
+#include "smooth/laplacian.hpp"
+
+namespace sculpt {
+namespace {
+
+std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
+
+// Owned volume nodes in hexes with an interface node and in the hexes around those, ascending.
+std::vector<LocalId> nodes_near_interfaces(const HexMesh& mesh, const NodeHexes& around, const Geometry& geometry) {
+  std::vector<std::uint8_t> near(mesh.position.size(), 0);
+  for (const Hex& hex : mesh.hexes) {
+    bool touches = false;
+    for (const LocalId n : hex) touches = touches || geometry.index[at(n)] != kNone;
+    if (!touches) continue;
+    for (const LocalId n : hex)
+      if (geometry.index[at(n)] == kNone) near[at(n)] = 1;
+  }
+  mesh.node_exchange.copy_to_ghosts(near);
+  std::vector<LocalId> chosen;
+  for (LocalId n = 0; n < mesh.nodes(); ++n) {
+    if (geometry.index[at(n)] != kNone || mesh.node_owner[at(n)] != mesh.node_exchange.comm().rank()) continue;
+    bool wanted = near[at(n)] != 0;
+    for (const std::int32_t item : around[n])
+      for (const LocalId other : mesh.hexes[at(item / 8)]) wanted = wanted || near[at(other)] != 0;
+    if (wanted) chosen.push_back(n);
+  }
+  return chosen;
+}
+
+Vec3 towards_neighbours(const HexMesh& mesh, const NodeHexes& around, LocalId node) {
+  const std::uint8_t sides = mesh.box_sides[at(node)];
+  Vec3 sum;
+  int count = 0;
+  for (const std::int32_t item : around[node])
+    for (const int c : kCornerNeighbours[static_cast<std::size_t>(item % 8)]) {
+      const LocalId other = mesh.hexes[at(item / 8)][static_cast<std::size_t>(c)];
+      if ((mesh.box_sides[at(other)] & sides) != sides) continue;
+      sum += mesh.position[at(other)];
+      ++count;
+    }
+  return count > 0 ? held_on_box((1.0 / count) * sum - mesh.position[at(node)], sides) : Vec3{};
+}
+
+}  // namespace
+
+void laplacian_passes(HexMesh& mesh, const NodeHexes& around, const Geometry& geometry, int passes, const Log& log) {
+  const std::vector<LocalId> nodes = nodes_near_interfaces(mesh, around, geometry);
+  std::vector<Vec3> moves(nodes.size());
+  for (int pass = 1; pass <= passes; ++pass) {
+    log.line("Laplacian Iter: {}", pass);
+    for (std::size_t i = 0; i < nodes.size(); ++i) moves[i] = towards_neighbours(mesh, around, nodes[i]);
+    for (std::size_t i = 0; i < nodes.size(); ++i) mesh.position[at(nodes[i])] += moves[i];
+    mesh.node_exchange.copy_to_ghosts(mesh.position);
+  }
+}
+
+}  // namespace sculpt

@@ -1,0 +1,180 @@
+#include "smooth/node_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sculpt {
+namespace {
+
+constexpr double kStepOfEdge = 0.5;   // longest step, of the shortest edge at the node
+constexpr double kStepFloor = 0.2;    // an edge counts at least this long there, in cells, so that collapsed ones open
+
+std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
+
+// Solves H d = -g for a symmetric H (xx xy xz yy yz zz); false when H is not safely positive definite.
+bool descend(const double (&h)[6], const Vec3& g, Vec3& d) {
+  if (!(h[0] > 0)) return false;
+  const double l00 = std::sqrt(h[0]), l10 = h[1] / l00, l20 = h[2] / l00;
+  const double b = h[3] - l10 * l10;
+  if (!(b > 1e-14 * std::fabs(h[3]))) return false;
+  const double l11 = std::sqrt(b), l21 = (h[4] - l20 * l10) / l11;
+  const double c = h[5] - l20 * l20 - l21 * l21;
+  if (!(c > 1e-14 * std::fabs(h[5]))) return false;
+  const double l22 = std::sqrt(c);
+  const double u = -g.x / l00, v = (-g.y - l10 * u) / l11, w = (-g.z - l20 * u - l21 * v) / l22;
+  d.z = w / l22;
+  d.y = (v - l21 * d.z) / l11;
+  d.x = (u - l10 * d.y - l20 * d.z) / l00;
+  return true;
+}
+
+// Newton direction; a multiple of the identity is added until the Hessian is positive definite.
+bool newton_direction(const double (&hessian)[6], const Vec3& g, Vec3& d) {
+  const double trace = hessian[0] + hessian[3] + hessian[5];
+  double add = 0;
+  for (int attempt = 0; attempt < 14; ++attempt) {
+    const double h[6] = {hessian[0] + add, hessian[1], hessian[2], hessian[3] + add, hessian[4], hessian[5] + add};
+    if (descend(h, g, d)) return std::isfinite(dot(d, d));
+    add = attempt == 0 ? 1e-3 * std::fabs(trace) + 1e-30 : 10 * add;
+  }
+  return false;
+}
+
+// Takes held axes out of the problem.
+void hold_axes(std::uint8_t sides, double (&h)[6], Vec3& g) {
+  const double trace = h[0] + h[3] + h[5];
+  constexpr int kDiagonal[3] = {0, 3, 5};
+  constexpr int kOff[3][2] = {{1, 2}, {1, 4}, {2, 4}};
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!(sides & kAxisSides[d])) continue;
+    g[d] = 0;
+    h[kOff[d][0]] = h[kOff[d][1]] = 0;
+    h[kDiagonal[d]] = trace;
+  }
+}
+
+double quadratic(const std::array<double, 6>& w, const Vec3& d) {
+  return w[0] * d.x * d.x + w[3] * d.y * d.y + w[5] * d.z * d.z +
+         2 * (w[1] * d.x * d.y + w[2] * d.x * d.z + w[4] * d.y * d.z);
+}
+
+}  // namespace
+
+Vec3 NodeStep::deviation(LocalId entry, LocalId node) const {
+  return scaled(mesh_.position[at(node)] - geometry_.target[at(entry)], scale_);
+}
+
+double NodeStep::price(LocalId node, const StepRules& rules) const {
+  double price = rules.penalty * star_.tets();
+  if (geometry_.on_curve[at(geometry_.index[at(node)])]) {
+    if (rules.release_curves_below < 0)
+      price *= 10;
+    else if (star_.shape({}).scaled_jacobian < rules.release_curves_below)
+      price *= 0.1;
+  }
+  return price;
+}
+
+bool NodeStep::newton(LocalId node, const StepRules& rules) {
+  star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale_, rules.target_lengths);
+  Derivatives at0 = star_.derivatives(rules.power, rules.eps);
+  const LocalId entry = geometry_.index[at(node)];
+  const double price_of = entry == kNone ? 0 : price(node, rules);
+  Vec3 off;
+  if (entry != kNone) {
+    const auto& w = geometry_.weight[at(entry)];
+    off = deviation(entry, node);
+    at0.gradient += 2 * price_of * Vec3{w[0] * off.x + w[1] * off.y + w[2] * off.z, w[1] * off.x + w[3] * off.y + w[4] * off.z,
+                                        w[2] * off.x + w[4] * off.y + w[5] * off.z};
+    for (std::size_t i = 0; i < 6; ++i) at0.hessian[i] += 2 * price_of * w[i];
+    at0.energy += price_of * quadratic(w, off);
+  }
+  const std::uint8_t sides = mesh_.box_sides[at(node)];
+  hold_axes(sides, at0.hessian, at0.gradient);
+  Vec3 step;
+  if (!newton_direction(at0.hessian, at0.gradient, step)) return false;
+  step = held_on_box(step, sides);
+  const double longest = kStepOfEdge * std::max(star_.shortest_edge(), kStepFloor), length = norm(step);
+  if (length > longest) step = (longest / length) * step;
+  if (!(std::min(length, longest) >= rules.least_move)) return false;
+
+  Star::Shape floor{-2, 0};
+  if (rules.guarded) {
+    const Star::Shape now = star_.shape({});
+    floor = {std::min(now.scaled_jacobian, rules.least_quality), std::min(now.edge, rules.least_edge)};
+  }
+  for (int halving = 0; halving < 6; ++halving, step = 0.5 * step) {
+    const Star::Value there = star_.value(step, rules.power, rules.eps);
+    const double energy = entry == kNone ? there.energy : there.energy + price_of * quadratic(geometry_.weight[at(entry)], off + step);
+    if (!(energy < at0.energy) || there.not_positive > at0.not_positive) continue;
+    if (rules.guarded) {
+      const Star::Shape shape = star_.shape(step);
+      if (shape.scaled_jacobian < floor.scaled_jacobian || shape.edge < floor.edge) continue;
+    }
+    Vec3& p = mesh_.position[at(node)];
+    for (std::size_t d = 0; d < 3; ++d)
+      if (step[d] != 0) p[d] += step[d] / scale_[d];
+    return true;
+  }
+  return false;
+}
+
+bool NodeStep::climb(LocalId node, double least_edge) {
+  constexpr double kDifference = 1e-5, kBand = 0.02;
+  constexpr int kMost = 10;
+  bool any = false;
+  Vec3& p = mesh_.position[at(node)];
+  const std::uint8_t sides = mesh_.box_sides[at(node)];
+  for (int round = 0; round < 5; ++round) {
+    star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale_, Star::Target::kPresent);
+    const Star::Shape now = star_.shape({});
+    // Gradients of the corners near the worst one: differences of the exact corner values.
+    std::vector<std::pair<double, Vec3>> corners;
+    for (const std::int32_t item : around_[node]) {
+      HexCorners hex = mesh_.corners(item / 8);
+      for (Vec3& corner : hex) corner = scaled(corner - p, scale_);
+      const auto moving = static_cast<std::size_t>(item % 8);
+      std::array<int, 4> near{item % 8, kCornerNeighbours[moving][0], kCornerNeighbours[moving][1], kCornerNeighbours[moving][2]};
+      for (const int c : near) {
+        const double here = corner_scaled_jacobian(hex, c);
+        if (here > now.scaled_jacobian + kBand) continue;
+        Vec3 gradient;
+        for (std::size_t d = 0; d < 3; ++d) {
+          HexCorners moved = hex;
+          moved[moving][d] += kDifference;
+          const double ahead = corner_scaled_jacobian(moved, c);
+          moved[moving][d] -= 2 * kDifference;
+          gradient[d] = (ahead - corner_scaled_jacobian(moved, c)) / (2 * kDifference);
+        }
+        corners.emplace_back(here, held_on_box(gradient, sides));
+      }
+    }
+    std::stable_sort(corners.begin(), corners.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    if (corners.size() > kMost) corners.resize(kMost);
+    // The shortest vector in the hull of the gradients raises all of them (Frank-Wolfe).
+    Vec3 up = corners.front().second;
+    for (int i = 0; i < 40; ++i) {
+      const auto least = std::min_element(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
+        return dot(up, a.second) < dot(up, b.second);
+      });
+      const Vec3 towards = least->second - up;
+      const double square = dot(towards, towards), share = square > 1e-20 ? -dot(up, towards) / square : 0;
+      if (share <= 1e-6) break;
+      up += std::min(share, 1.0) * towards;
+    }
+    if (norm(up) < 1e-4) break;
+    Vec3 step = (0.25 * now.edge) * unit(up);
+    bool raised = false;
+    for (int halving = 0; halving < 7 && !raised; ++halving, step = 0.5 * step) {
+      const Star::Shape there = star_.shape(step);
+      if (there.scaled_jacobian <= now.scaled_jacobian + 1e-4 || there.edge < std::min(now.edge, least_edge)) continue;
+      for (std::size_t d = 0; d < 3; ++d)
+        if (step[d] != 0) p[d] += step[d] / scale_[d];
+      raised = any = true;
+    }
+    if (!raised) break;
+  }
+  return any;
+}
+
+}  // namespace sculpt

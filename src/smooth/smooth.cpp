@@ -1,0 +1,214 @@
+#include "sculpt/smooth/smooth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "smooth/active_set.hpp"
+#include "smooth/laplacian.hpp"
+#include "smooth/node_step.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr int kUntangleSweeps = 40;
+constexpr double kFar = 0.02;        // a move that makes the neighbours worth another visit, in cells
+constexpr double kMargin = 0.05;     // hexes this little above the target are raised as well
+
+class Phases {
+ public:
+  Phases(HexMesh& mesh, const Geometry& geometry, const SmoothOptions& options, const Log& log)
+      : mesh_(mesh), geometry_(geometry), options_(options), log_(log), set_(mesh), step_(mesh, set_.around(), geometry) {
+    const Vec3& h = mesh.cell_size;
+    per_axis_ = {1 / h.x, 1 / h.y, 1 / h.z};
+    const double size = h.x == h.y && h.y == h.z ? h.x : std::cbrt(h.x * h.y * h.z);
+    isotropic_ = {1 / size, 1 / size, 1 / size};
+  }
+
+  void run() {
+    log_.line("Smoothing {} hexes on {} processors", set_.comm().sum(owned_hexes()), set_.comm().size());
+    laplacian_passes(mesh_, set_.around(), geometry_, options_.laplacian_passes, log_);
+    set_.refresh_all_quality();
+    untangle();
+    improve();
+    raise_to_target();
+  }
+
+ private:
+  [[nodiscard]] std::int64_t owned_hexes() const { return std::count(mesh_.layer.begin(), mesh_.layer.end(), std::uint8_t{0}); }
+
+  std::int64_t sweep(const StepRules& rules, double far) {
+    return set_.sweep([&](LocalId n) { return step_.newton(n, rules); }, far);
+  }
+
+  void report(const char* phase, int iteration) const {
+    const ActiveSet::Worst w = set_.worst(options_.target);
+    log_.line("{} Iter: {},  Num bad: {}, Num poor: {}, Min SJ: {:f}", phase, iteration, w.not_positive, w.below_02, w.quality);
+  }
+
+  // Positive determinants everywhere: minimise the regularised energy while the regularisation falls with the worst
+  // determinant. Determinants do not care about a scaling of the axes, so cells count as cubes here.
+  void untangle() {
+    step_.set_scale(per_axis_);
+    StepRules rules;
+    rules.guarded = false;
+    rules.target_lengths = Star::Target::kUnit;
+    rules.least_move = 1e-5;
+    rules.release_curves_below = options_.release_curves_below;
+    int layers = 2;
+    double eps = 0;
+    for (int i = 0; i < kUntangleSweeps; ++i) {
+      const double worst = set_.least_determinant(per_axis_);
+      if (set_.worst(options_.target).not_positive == 0 && worst > 0) break;
+      eps = next_eps(worst, eps, i == 0);
+      rules.eps = eps;
+      if (i > 0 && i % 5 == 0) {  // no success yet: interfaces give way more easily, farther around
+        rules.penalty = std::max(rules.penalty * 0.3, 1e-4);
+        layers = std::min(layers + 1, 4);
+      }
+      set_.choose(0.1, layers, false);
+      sweep(rules, kFar);
+      report("Untangling", i + 1);
+    }
+  }
+  static double next_eps(double worst, double eps, bool first) {
+    if (first) eps = worst < 1e-4 ? std::sqrt(1e-12 + 0.04 * worst * worst) + 1e-2 : 1e-2;
+    const double chi = 0.5 * (worst + std::sqrt(eps * eps + worst * worst)), aim = 0.9 * chi;
+    const double next = worst < aim ? 2 * std::sqrt(aim * (aim - worst)) : 1e-6;
+    return std::max(next, first ? 1e-2 : 1e-6);
+  }
+
+  void improve() {
+    step_.set_scale(isotropic_);
+    StepRules rules;
+    rules.least_quality = options_.target;
+    rules.release_curves_below = options_.release_curves_below;
+    std::int64_t first = 0;
+    for (int i = 0; i < options_.improve_sweeps; ++i) {
+      const std::int64_t nodes = set_.choose(options_.improve_below, 1, i > 0);
+      if (i == 0) first = nodes;
+      if (nodes == 0 || (i > 0 && nodes < first / 50)) break;
+      const std::int64_t moves = sweep(rules, kFar);
+      report("Jacobi Opt", i + 1);
+      if (moves < nodes / 50) break;
+    }
+  }
+
+  // What is still below the target: steeper energies, which look more and more at the worst corner only, then the
+  // climb of single corners.
+  void raise_to_target() {
+    const std::int64_t nodes = set_.choose(options_.target, 0, false);
+    if (nodes == 0) {
+      log_.line("No parallel color smoothing performed: min SJ > {:f}", options_.target);
+      return;
+    }
+    log_.line("Begin parallel color smoothing {} nodes below threshold {:f}", nodes, options_.target);
+    StepRules rules;
+    rules.least_quality = options_.target;
+    rules.least_move = 1e-4;
+    rules.release_curves_below = options_.release_curves_below;
+    int round = 0;
+    for (rules.power = 2; rules.power <= 8; rules.power *= 2) {
+      rules.penalty *= std::pow(1 / options_.target, rules.power / 4.0);  // keeps pace with the energy at the target
+      for (int i = 0; i < 4 && round < options_.target_rounds; ++i) {
+        if (set_.choose(options_.target + kMargin, 1, false) == 0) break;
+        const std::int64_t moves = sweep(rules, kFar);
+        report_target(++round, moves);
+        if (moves == 0) break;
+      }
+    }
+    rules.power = 4;
+    for (int i = 0; i < 20 && round < options_.target_rounds; ++i) {
+      if (set_.choose(options_.target, 0, false) == 0) break;
+      const std::int64_t moves = set_.sweep([&](LocalId n) { return step_.climb(n, rules.least_edge); }, kFar);
+      report_target(++round, moves);
+      if (moves == 0) break;
+      if (i % 4 == 3) {
+        set_.choose(options_.target, 1, false);
+        sweep(rules, kFar);
+      }
+    }
+    if (set_.worst(options_.target).below_target > 0)
+      log_.line("WARNING: Smoothing terminated. Unable to make additional improvement.");
+  }
+  void report_target(int round, std::int64_t moves) const {
+    const ActiveSet::Worst w = set_.worst(options_.target);
+    log_.line("Coloring Opt Iter: {}, Num Smooths: {}, Num bad: {}, Num poor: {}, Min SJ: {:f}", round, moves, w.not_positive,
+              w.below_target, w.quality);
+  }
+
+  HexMesh& mesh_;
+  const Geometry& geometry_;
+  const SmoothOptions& options_;
+  const Log& log_;
+  ActiveSet set_;
+  NodeStep step_;
+  Vec3 per_axis_, isotropic_;
+};
+
+}  // namespace
+
+void smooth_mesh(HexMesh& mesh, const Geometry& geometry, const SmoothOptions& options, const Log& log) {
+  Phases(mesh, geometry, options, log).run();
+}
+
+QualitySummary summarise(const Comm& comm, const HexMesh& mesh) {
+  constexpr double kUnits = 1099511627776.0;  // 2^40
+  QualitySummary s;
+  std::int64_t units_high = 0, units = 0;
+  s.least = 2;
+  s.shortest_edge = std::numeric_limits<double>::infinity();
+  std::array<std::int64_t, 4> counts{0, 0, 0, 0};
+  LocalId worst = kNone;
+  for (LocalId h = 0; h < mesh.size(); ++h) {
+    if (mesh.layer[static_cast<std::size_t>(h)] != 0) continue;
+    const HexCorners p = mesh.corners(h);
+    const double q = scaled_jacobian(p);
+    ++counts[0];
+    counts[1] += q <= 0;
+    counts[2] += q < 0.2;
+    counts[3] += q < 0.3;
+    units += static_cast<std::int64_t>(std::llround(q * kUnits));
+    units_high += units >> 40;  // carries keep the sum in range for any number of hexes
+    units &= (std::int64_t{1} << 40) - 1;
+    if (q < s.least) {
+      s.least = q;
+      worst = h;
+    }
+    s.shortest_edge = std::min(s.shortest_edge, shortest_edge(p));
+  }
+  comm.sum(counts);
+  const double least = comm.min(s.least);
+  const bool mine = worst != kNone && s.least == least;
+  s.hexes = counts[0];
+  s.not_positive = counts[1];
+  s.below_02 = counts[2];
+  s.below_03 = counts[3];
+  s.least = s.hexes > 0 ? least : 1;
+  s.least_hex = comm.min(mine ? mesh.hex_id[static_cast<std::size_t>(worst)] : std::numeric_limits<GlobalId>::max());
+  const bool named = mine && mesh.hex_id[static_cast<std::size_t>(worst)] == s.least_hex;
+  s.least_rank = static_cast<int>(comm.max(std::int64_t{named ? comm.rank() : 0}));
+  Vec3 centre;
+  if (named)
+    for (const Vec3& p : mesh.corners(worst)) centre += 0.125 * p;
+  std::vector<Vec3> at{centre};
+  comm.broadcast(at, s.least_rank);
+  s.least_at = at[0];
+  const double all = static_cast<double>(comm.sum(units_high)) + static_cast<double>(comm.sum(units)) / kUnits;
+  s.average = s.hexes > 0 ? all / static_cast<double>(s.hexes) : 0;
+  s.shortest_edge = comm.min(s.shortest_edge);
+  return s;
+}
+
+std::int64_t count_not_positive_inside(const Comm& comm, const HexMesh& mesh) {
+  constexpr double kSafe = 0.9;  // corners this good leave no room for a fold
+  std::int64_t count = 0;
+  for (LocalId h = 0; h < mesh.size(); ++h) {
+    if (mesh.layer[static_cast<std::size_t>(h)] != 0) continue;
+    const HexCorners p = mesh.corners(h);
+    count += scaled_jacobian(p) < kSafe && !is_positive_inside(p);
+  }
+  return comm.sum(count);
+}
+
+}  // namespace sculpt

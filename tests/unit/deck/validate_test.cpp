@@ -1,0 +1,201 @@
+#include <gtest/gtest.h>
+
+#include "message.hpp"
+#include "sculpt/deck/options.hpp"
+#include "sculpt/deck/parse.hpp"
+
+namespace sculpt {
+namespace {
+
+Deck deck_of(const std::string& lines) {
+  return parse_deck("BEGIN SCULPT\n" + lines + "\nEND SCULPT\n", "deck.i");
+}
+std::string verdict(const std::string& lines) {
+  return message_of([&] { validate(deck_of(lines)); });
+}
+const std::string kSpn = "input_spn = a.spn\nnelx = 3\nnely = 4\nnelz = 5\n";  // lines 2 to 5
+
+TEST(Validate, AcceptsEverySupportedOption) {
+  EXPECT_EQ(verdict(kSpn + R"(num_procs = 6
+iproc = 3
+jproc = 1
+kproc = 2
+quiet = true
+spn_xyz_order = zyx
+compress_spn_ids = true
+exodus_file = out
+large_exodus = true
+compare_volume = true
+xmin = 0
+xmax = 1
+stair = fast
+mesh_void = true
+void_mat = 7
+material_name = 1 iron
+gen_sidesets = rve
+smooth = 3
+csmooth = linear
+laplacian_iters = 3
+max_opt_iters = 50
+opt_threshold = 0.7
+curve_opt_thresh = -1
+max_pcol_iters = 0
+pcol_threshold = 0.2
+pillow_surfaces = true
+pillow = 1
+micro_expand = 2
+micro_shave = true
+xtranslate = -1
+yscale = 2
+scale = 40)"),
+            "no error");
+  EXPECT_EQ(verdict("input_micro = a.tec"), "no error");
+  EXPECT_EQ(verdict("input_cart_exo = a.g\ngen_sidesets = fixed"), "no error");
+  EXPECT_EQ(
+      verdict("diatom_file = a\nnelx=1\nnely=1\nnelz=1\nxmin=0\nymin=0\nzmin=0\nxmax=1\nymax=1\nzmax=1"),
+      "no error");
+}
+
+TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
+  EXPECT_EQ(verdict(kSpn + "pillow_curves = true"),
+            "option 'pillow_curves' (line 6 of deck.i) is not supported yet");
+  EXPECT_EQ(verdict(kSpn + "defeature = 1"), "option 'defeature' (line 6 of deck.i) is not supported yet");
+  EXPECT_EQ(verdict(kSpn + "remove_bad = 0.0"),
+            "option 'remove_bad' (line 6 of deck.i) is not supported yet");
+  EXPECT_EQ(verdict("stl_file = a.stl"), "option 'stl_file' (line 2 of deck.i) is not supported yet");
+  EXPECT_EQ(verdict(kSpn + "thicken_material = 3 0.2"),
+            "option 'thicken_material' (line 6 of deck.i) is not supported yet");
+  EXPECT_EQ(verdict(kSpn + "check_periodic = true"),
+            "option 'check_periodic' (line 6 of deck.i) is not supported yet");
+  const CommandLine line = parse_command_line(std::vector<std::string>{"-cs", "0.5"}, read_deck_file);
+  EXPECT_EQ(message_of([&] { validate(line.deck); }),
+            "option 'cell_size' (command line) is not supported yet");
+}
+
+TEST(Validate, RefusesUnsupportedValues) {
+  EXPECT_EQ(verdict(kSpn + "smooth = to_geom"),
+            "option 'smooth' (line 6 of deck.i): value to_geometry (4) is not supported yet");
+  EXPECT_EQ(verdict(kSpn + "gen_sidesets = 9"),
+            "option 'gen_sidesets' (line 6 of deck.i): value input_mesh (9) is not supported yet");
+  EXPECT_EQ(verdict(kSpn + "pillow = 3"),
+            "option 'pillow' (line 6 of deck.i): value domain_boundaries (3) is not supported yet");
+}
+
+// Every unsupported switch may be written down as long as it stays off.
+TEST(Validate, AcceptsUnsupportedOptionsThatAreOff) {
+  for (const OptionSpec& option : option_table()) {
+    if (option.supported || !std::holds_alternative<bool Deck::*>(option.slot)) continue;
+    const std::string name(option.name);
+    EXPECT_EQ(verdict(kSpn + name + " = false"), "no error") << name;
+    EXPECT_EQ(verdict(kSpn + name + " = true"),
+              "option '" + name + "' (line 6 of deck.i) is not supported yet");
+  }
+  EXPECT_EQ(verdict(kSpn + "defeature = off\nadapt_type = 0\nmin_vol_cells = 5\ncapture = 0"), "no error");
+}
+
+TEST(Validate, NeedsExactlyOneGeometry) {
+  EXPECT_EQ(verdict("nelx = 3"),
+            "no input geometry; give one of stl_file, diatom_file, input_vfrac, input_micro, input_cart_exo, "
+            "input_spn or input_stitch");
+  EXPECT_EQ(verdict(kSpn + "diatom_file = b.diatom"),
+            "only one input geometry is allowed; given: diatom_file = b.diatom (line 6 of deck.i), input_spn "
+            "= a.spn "
+            "(line 2 of deck.i)");
+}
+
+TEST(Validate, NamesWhatAnInputLacks) {
+  EXPECT_EQ(verdict("input_spn = a.spn\nnelx = 3"),
+            "input_spn needs the number of cells nelx, nely and nelz; given: nelx = 3 (line 3 of deck.i); "
+            "not given: nely, nelz");
+  EXPECT_EQ(verdict("diatom_file = a\nnelx = 3\nnely = 3"),
+            "diatom_file needs the number of cells nelx, nely and nelz; given: nelx = 3 (line 3 of deck.i), "
+            "nely = 3 (line 4 of deck.i); not given: nelz");
+  EXPECT_EQ(verdict("diatom_file = a\nnelx = 3\nnely = 3\nnelz = 3\nxmin = 0"),
+            "diatom_file needs the box of the grid, xmin, ymin, zmin, xmax, ymax and zmax; given: xmin = 0 "
+            "(line 6 of "
+            "deck.i); not given: ymin, zmin, xmax, ymax, zmax");
+}
+
+TEST(Validate, NeedsABoxWithAnInside) {
+  EXPECT_EQ(
+      verdict("input_micro = a\nxmin = 2\nxmax = 2"),
+      "xmin must be smaller than xmax; given: xmin = 2 (line 3 of deck.i), xmax = 2 (line 4 of deck.i)");
+  EXPECT_EQ(verdict("input_micro = a\nymin = 2\nymax = 1").find("ymin must be smaller than ymax"), 0u);
+  EXPECT_EQ(verdict("input_micro = a\nzmin = 2\nzmax = 1").find("zmin must be smaller than zmax"), 0u);
+}
+
+TEST(Validate, LimitsTheNumberOfCells) {
+  const std::string too_many = "input_spn = a\nnelx = 1000000000\nnely = 1000000000\nnelz = ";
+  EXPECT_EQ(verdict(too_many + "4"), "no error");  // 4e18 < 2^62 = 4.61e18
+  EXPECT_EQ(verdict(too_many + "5").find("the grid has more cells than can be numbered"), 0u);
+  EXPECT_EQ(verdict(too_many + "1000000000").find("the grid has more cells than can be numbered"), 0u);
+}
+
+TEST(Validate, ComparesThePartsWithTheRanks) {
+  EXPECT_EQ(
+      verdict(kSpn + "num_procs = 4\niproc = 3\njproc = 1\nkproc = 1"),
+      "iproc * jproc * kproc must be the number of processes; found: iproc = 3 (line 7 of deck.i), jproc = 1 "
+      "(line 8 of deck.i), kproc = 1 (line 9 of deck.i), num_procs = 4 (line 6 of deck.i)");
+  EXPECT_EQ(verdict(kSpn + "num_procs = 4\niproc = 1000000\njproc = 1000000\nkproc = 1000000")
+                .find("iproc * jproc * kproc must be the number of processes"),
+            0u);
+  EXPECT_EQ(verdict(kSpn + "num_procs = 4\njproc = 3")
+                .find("the product of the given ones of iproc, jproc and kproc must divide"),
+            0u);
+  EXPECT_EQ(verdict(kSpn + "num_procs = 4\njproc = 2"), "no error");
+}
+
+TEST(Validate, NeedsPositiveScales) {
+  EXPECT_EQ(verdict(kSpn + "yscale = 0"),
+            "scale factors must be positive; given: yscale = 0 (line 6 of deck.i)");
+}
+
+TEST(InputDefaults, SmoothVoxelsWithoutProjection) {
+  Deck deck = deck_of(kSpn);
+  apply_input_defaults(deck);
+  EXPECT_EQ(deck.smooth, kSmoothNoSurfaceProjections);
+  EXPECT_EQ(deck.csmooth, kCsmoothHermite);
+  EXPECT_EQ(deck.laplacian_iters, 10);
+  EXPECT_FALSE(deck.given("smooth"));
+  EXPECT_TRUE(deck.redefaulted.contains("smooth"));
+  const Deck once = deck;
+  apply_input_defaults(deck);
+  EXPECT_EQ(deck, once);
+}
+
+TEST(InputDefaults, KeepWhatTheUserGave) {
+  Deck deck = deck_of(kSpn + "smooth = 1\ncsmooth = vfrac\nlaplacian_iters = 0\nexodus_file = out");
+  apply_input_defaults(deck);
+  EXPECT_EQ(deck.smooth, kSmoothOn);
+  EXPECT_EQ(deck.csmooth, kCsmoothVfrac);
+  EXPECT_EQ(deck.laplacian_iters, 0);
+  EXPECT_EQ(deck.exodus_file, "out");
+  EXPECT_TRUE(deck.redefaulted.empty());
+}
+
+TEST(InputDefaults, OtherInputsKeepTheGeneralSmoothing) {
+  for (const char* line : {"input_micro = a", "input_cart_exo = a", "diatom_file = a"}) {
+    Deck deck = deck_of(line);
+    apply_input_defaults(deck);
+    EXPECT_EQ(deck.smooth, kSmoothOn) << line;
+    EXPECT_EQ(deck.csmooth, kCsmoothVfrac) << line;
+    EXPECT_EQ(deck.laplacian_iters, 2) << line;
+  }
+}
+
+TEST(InputDefaults, NameTheMeshAfterTheDeckOrTheData) {
+  Deck deck = deck_of("input_spn = in/grains.v2.spn");
+  apply_input_defaults(deck);
+  EXPECT_EQ(deck.exodus_file, "grains.v2");
+  EXPECT_TRUE(deck.redefaulted.contains("exodus_file"));
+  deck = deck_of("input_spn = in/grains.spn");
+  deck.input_file = "runs/case7.i";
+  apply_input_defaults(deck);
+  EXPECT_EQ(deck.exodus_file, "case7");
+  Deck nameless;
+  apply_input_defaults(nameless);
+  EXPECT_EQ(nameless.exodus_file, "sculpt");
+}
+
+}  // namespace
+}  // namespace sculpt

@@ -5,8 +5,8 @@
 namespace sculpt {
 namespace {
 
-constexpr double kShrink = 0.5, kGrow = -0.53;  // Taubin's pair
-constexpr double kFarthest = 0.6;               // from the grid position, in cells per axis
+constexpr double kShrink = 0.5;                 // share of the way in the shrinking pass of a pair
+constexpr double kFarthest = 0.45;               // from the grid position, in cells per axis
 constexpr double kSliding = 0.1;                // weight of a tangential deviation
 
 std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
@@ -15,7 +15,8 @@ class Smoother {
  public:
   Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule) : mesh_(mesh), faces_(faces), rule_(rule) {}
 
-  // One Jacobi pass: every node goes `factor` of the way to where it wants to be.
+  // One Jacobi pass: every node goes `factor` of the way to where it wants to be. Rules that keep the shape of a
+  // smooth curve by themselves have no part in the growing passes.
   void pass(double factor) {
     const int rank = mesh_.node_exchange.comm().rank();
     moved_.resize(faces_.nodes.size());
@@ -23,7 +24,7 @@ class Smoother {
       const LocalId n = faces_.nodes[i];
       moved_[i] = mesh_.position[at(n)];
       if (mesh_.node_owner[at(n)] == rank)
-        moved_[i] += factor * held_on_box(wish(i), mesh_.box_sides[at(n)]);
+        moved_[i] += factor * held_on_box(wish(i, factor < 0), mesh_.box_sides[at(n)]);
     }
     for (std::size_t i = 0; i < faces_.nodes.size(); ++i) mesh_.position[at(faces_.nodes[i])] = moved_[i];
     mesh_.node_exchange.copy_to_ghosts(mesh_.position);
@@ -39,14 +40,16 @@ class Smoother {
     return of.empty() ? Vec3{} : (1.0 / static_cast<double>(of.size())) * sum - position(static_cast<LocalId>(i));
   }
 
-  [[nodiscard]] Vec3 wish(std::size_t i) const {
-    switch (faces_.kind[i]) {
-      case NodeClass::kSurface: return towards_mean(i, faces_.neighbours[i]);
-      case NodeClass::kCurve: return curve_wish(i);
-      case NodeClass::kVertex: break;
-    }
-    return rule_ == CurveRule::kOff ? Vec3{} : 0.5 * towards_mean(i, faces_.curve_neighbours[i]);
+  [[nodiscard]] Vec3 wish(std::size_t i, bool growing) const {
+    if (faces_.kind[i] == NodeClass::kSurface) return towards_mean(i, faces_.neighbours[i]);
+    if (rule_ == CurveRule::kOff) return {};
+    if (faces_.kind[i] == NodeClass::kVertex) return 0.5 * towards_mean(i, faces_.curve_neighbours[i]);
+    if (rule_ == CurveRule::kLinear || ends_surface(i)) return towards_mean(i, faces_.curve_neighbours[i]);
+    return growing ? Vec3{} : curve_wish(i);
   }
+
+  // Whether the curve is but the edge of one surface, on the box: it is smoothed as the surface is.
+  [[nodiscard]] bool ends_surface(std::size_t i) const { return faces_.node_quads[i].size() == 2; }
 
   // The next node of the curve beyond b, coming from i; b itself at the end of the curve.
   [[nodiscard]] LocalId beyond(LocalId i, LocalId b) const {
@@ -67,14 +70,14 @@ class Smoother {
         // Hermite midpoint with tangents of one edge length (the report's 2.25, signs by orientation a to b).
         const LocalId pa = beyond(i, ia), pb = beyond(i, ib);
         const Vec3 da = pa == ia ? x - a : 0.5 * (x - position(pa)), db = pb == ib ? b - x : 0.5 * (position(pb) - x);
-        return 0.5 * (middle + 0.25 * (da - db) - x);
+        return middle + 0.25 * (da - db) - x;
       }
       case CurveRule::kAverageTangent: {
         // Mean of the two straight continuations over half the chord.
         const LocalId pa = beyond(i, ia), pb = beyond(i, ib);
         const double half = 0.5 * norm(b - a);
         const Vec3 ta = pa == ia ? unit(x - a) : unit(a - position(pa)), tb = pb == ib ? unit(x - b) : unit(b - position(pb));
-        return 0.5 * (0.5 * (a + half * ta + b + half * tb) - x);
+        return 0.5 * (a + half * ta + b + half * tb) - x;
       }
       case CurveRule::kCircle: return middle_of_arc(a, x, b) - x;
       case CurveRule::kNeighbourSurfaceNormal: return towards_surfaces(node, middle - x);
@@ -132,7 +135,7 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
   Smoother smoother(mesh, faces, options.curve);
   for (int pair = 0; pair < options.pairs; ++pair) {
     smoother.pass(kShrink);
-    smoother.pass(kGrow);
+    smoother.pass(options.grow);
   }
   const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
   for (std::size_t i = 0; i < faces.nodes.size(); ++i) {

@@ -3,11 +3,8 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 
 #include "sculpt/base/error.hpp"
@@ -120,7 +117,10 @@ LaunchPlan plan_launch(const Deck& deck, std::span<const std::string> words, con
     if (!environment(name)) plan.environment.emplace_back(name, value);
   };
   add(kOwnMark, "1");
-  // Open MPI 3 and 4 read OMPI_*, Open MPI 5 the PRTE_* ones; other launchers ignore both.
+  // Open MPI 3 and 4 read OMPI_*, Open MPI 5 the PRTE_* ones; other launchers ignore both. Its remarks on ranks that
+  // fail would hide the one message that tells why; launch() speaks up where there was none.
+  add("OMPI_MCA_orte_execute_quiet", "1");
+  add("PRTE_MCA_prte_execute_quiet", "1");
   add("OMPI_ALLOW_RUN_AS_ROOT", "1");
   add("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   add("OMPI_MCA_rmaps_base_oversubscribe", "1");
@@ -138,17 +138,6 @@ LaunchPlan plan_launch(const Deck& deck, std::span<const std::string> words, con
         "{}\n{}\n",
         host.name, host.time, deck.num_procs, mpiexec, shell_text(plan.argv));
   return plan;
-}
-
-void launch(const LaunchPlan& plan) {
-  std::fputs(plan.announcement.c_str(), stdout);
-  std::fflush(stdout);
-  for (const auto& [name, value] : plan.environment) ::setenv(name.c_str(), value.c_str(), 0);
-  std::vector<char*> argv;
-  for (const std::string& word : plan.argv) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
-  ::execv(argv[0], argv.data());
-  throw Error(fmt::format("option '-j': cannot run '{}': {}", plan.argv[0], std::strerror(errno)));
 }
 
 std::string check_rank_count(const Deck& deck, int ranks) {

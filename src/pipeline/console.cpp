@@ -25,6 +25,10 @@ InterfaceSmoothing interface_smoothing(const Deck& deck) {
   InterfaceSmoothing s;
   s.curve = static_cast<CurveRule>(deck.csmooth);
   s.pairs = deck.laplacian_iters;
+  if (deck.smooth == kSmoothNoSurfaceProjections) {  // smoother, at the price of some volume
+    s.pairs *= 2;
+    s.grow = -0.45;
+  }
   return s;
 }
 

@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
+#include <csignal>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,7 @@
 namespace sculpt {
 namespace {
 
-// What -h, -vs and --print_input print instead of a run; nullopt-like empty text means run.
+// What -h, -vs and --print_input print instead of a run; empty when there is a run.
 std::string text_instead_of_run(CommandLine& line) {
   switch (line.action) {
     case Action::kRun: return {};
@@ -58,31 +60,33 @@ void run_rank(const Comm& comm, const std::vector<std::string>& words, const std
 int complain(const std::string& message) {
   std::fflush(stdout);
   fmt::print(stderr, "sculpt: error: {}\n", message);
-  return 1;
+  return kToldStatus;
 }
 
-// Before MPI starts: answers that need no ranks, wrong input, and the start of the ranks.
-bool settled_without_mpi(const std::vector<std::string>& words, const std::string& program) {
+// Before MPI starts: answers that need no ranks, wrong input, and the run of the ranks. The exit status, or nothing when
+// this process is a rank itself.
+std::optional<int> settled_without_mpi(const std::vector<std::string>& words, const std::string& program) {
   const Environment environment = process_environment();
-  if (already_launched(environment)) return false;
+  if (already_launched(environment)) return std::nullopt;
   CommandLine line = parse_command_line(words, read_deck_file);
   if (const std::string text = text_instead_of_run(line); line.action != Action::kRun) {
     std::fputs(text.c_str(), stdout);
-    return true;
+    return 0;
   }
-  if (!should_launch(line.deck, program, environment)) return false;
+  if (!should_launch(line.deck, program, environment)) return std::nullopt;
   apply_input_defaults(line.deck);
   validate(line.deck);
-  launch(plan_launch(line.deck, words, find_mpiexec(line.deck, environment), this_host(), environment));
+  return launch(plan_launch(line.deck, words, find_mpiexec(line.deck, environment), this_host(), environment));
 }
 
 }  // namespace
 
 int sculpt_main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond `ulimit -f` is an error with a message
   const std::string program = argv[0];
   const std::vector<std::string> words(argv + 1, argv + argc);
   try {
-    if (settled_without_mpi(words, program)) return 0;
+    if (const std::optional<int> status = settled_without_mpi(words, program)) return *status;
   } catch (const std::exception& e) {
     return complain(e.what());
   }
@@ -92,12 +96,12 @@ int sculpt_main(int argc, char** argv) {
     run_rank(comm, words, program);
     return 0;
   } catch (const Error& e) {  // every rank has the same one
-    return comm.rank() == 0 ? complain(e.what()) : 1;
+    return comm.rank() == 0 ? complain(e.what()) : kToldStatus;
   } catch (...) {
     complain(fmt::format("rank {}: {}", comm.rank(), current_exception_text()));
-    MPI_Abort(MPI_COMM_WORLD, 1);
+    MPI_Abort(MPI_COMM_WORLD, kToldStatus);
   }
-  return 1;
+  return kToldStatus;
 }
 
 }  // namespace sculpt

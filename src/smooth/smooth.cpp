@@ -11,7 +11,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int kUntangleSweeps = 40;
+constexpr int kUntangleSweeps = 60, kBulkSweeps = 3;
 constexpr double kFar = 0.02;        // a move that makes the neighbours worth another visit, in cells
 constexpr double kMargin = 0.05;     // hexes this little above the target are raised as well
 
@@ -62,18 +62,17 @@ class Phases {
       if (set_.worst(options_.target).not_positive == 0 && worst > 0) break;
       eps = next_eps(worst, eps, i == 0);
       rules.eps = eps;
-      if (i > 0 && i % 5 == 0) {  // no success yet: interfaces give way more easily, farther around
-        rules.penalty = std::max(rules.penalty * 0.3, 1e-4);
-        layers = std::min(layers + 1, 4);
-      }
-      set_.choose(0.1, layers, false);
+      if (i >= kBulkSweeps) rules.penalty = std::max(rules.penalty * 0.5, 1e-4);  // interfaces give way more easily
+      if (i > 0 && i % 5 == 0) layers = std::min(layers + 1, 4);                   // and farther around
+      // The first sweeps settle the bulk; what resists them is worked on in its own neighbourhood.
+      set_.choose(i < kBulkSweeps ? 0.1 : 1e-3, layers, false);
       sweep(rules, kFar);
       report("Untangling", i + 1);
     }
   }
   static double next_eps(double worst, double eps, bool first) {
     if (first) eps = worst < 1e-4 ? std::sqrt(1e-12 + 0.04 * worst * worst) + 1e-2 : 1e-2;
-    const double chi = 0.5 * (worst + std::sqrt(eps * eps + worst * worst)), aim = 0.9 * chi;
+    const double chi = 0.5 * (worst + std::sqrt(eps * eps + worst * worst)), aim = 0.5 * chi;
     const double next = worst < aim ? 2 * std::sqrt(aim * (aim - worst)) : 1e-6;
     return std::max(next, first ? 1e-2 : 1e-6);
   }

@@ -13,7 +13,8 @@ namespace sculpt {
 enum class CurveRule { kOff = 0, kCircle, kHermite, kAverageTangent, kNeighbourSurfaceNormal, kVfrac, kLinear };
 
 struct InterfaceSmoothing {
-  int pairs = 5;                            // Taubin pairs
+  int pairs = 5;                            // a shrinking and a growing pass each
+  double grow = -0.53;                      // share of the way in the growing pass; Taubin's keeps volumes best
   CurveRule curve = CurveRule::kHermite;
 };
 

@@ -52,8 +52,12 @@ struct LaunchPlan {
                                      const std::string& mpiexec, const Host& host,
                                      const Environment& environment);
 
-// Prints the announcement, sets the environment and replaces this process. Error: the system refuses to.
-[[noreturn]] void launch(const LaunchPlan& plan);
+// Exit status of a run whose message on stderr says what is wrong. mpiexec has other numbers for troubles of its own.
+inline constexpr int kToldStatus = 2;
+
+// Prints the announcement, sets the environment, runs mpiexec and waits for its end, passing signals on. Returns 0 or
+// kToldStatus. Error: mpiexec cannot be run, or the ranks ended without having said why.
+[[nodiscard]] int launch(const LaunchPlan& plan);
 
 // For a rank: empty, or what is wrong when -j was given and is not the number of ranks.
 [[nodiscard]] std::string check_rank_count(const Deck& deck, int ranks);

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -75,6 +76,8 @@ TEST(PlanLaunch, StartsThisProgramWithItsWords) {
             "Initializing MPI on 4 Processors: mpiexec = /usr/bin/mpiexec\n"
             "/usr/bin/mpiexec -n 4 /opt/bin/sculpt -j 4 -i 'a b.i'\n");
   EXPECT_EQ(added(plan), (Variables{{"SCULPT_LAUNCHED", "1"},
+                                    {"OMPI_MCA_orte_execute_quiet", "1"},
+                                    {"PRTE_MCA_prte_execute_quiet", "1"},
                                     {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
                                     {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
                                     {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
@@ -167,23 +170,52 @@ TEST_F(FindMpiexec, SaysWhatIsMissing) {
             "option '-mpi': '" + folder_ + "' is not a program that can be run");
 }
 
-TEST(Launch, FailsWithAMessageWhenTheProgramCannotRun) {
-  const LaunchPlan plan{.argv = {"/no/such/mpiexec"}, .environment = {}, .announcement = ""};
+LaunchPlan plan_of(const std::string& command, const std::string& announcement = "") {
+  return {.argv = {"/bin/sh", "-c", command}, .environment = {}, .announcement = announcement};
+}
+
+std::string complaint(const LaunchPlan& plan) {
   try {
-    launch(plan);
+    return "status " + std::to_string(launch(plan));
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "option '-j': cannot run '/no/such/mpiexec': No such file or directory");
+    return error.what();
   }
 }
 
-TEST(Launch, ReplacesTheProcessAndAddsTheEnvironment) {
-  const LaunchPlan plan{.argv = {"/bin/sh", "-c", "test \"$SCULPT_TEST_MARK$HOME\" = new/h && exit 7"},
-                        .environment = {{"SCULPT_TEST_MARK", "new"}, {"HOME", "old"}},
-                        .announcement = "starting\n"};
+TEST(Launch, FailsWithAMessageWhenTheProgramCannotRun) {
+  const LaunchPlan plan{.argv = {"/no/such/mpiexec"}, .environment = {}, .announcement = ""};
+  EXPECT_EQ(complaint(plan), "option '-j': cannot run '/no/such/mpiexec': No such file or directory");
+}
+
+TEST(Launch, ReturnsTheStatusOfRanksThatSaidWhy) {
+  EXPECT_EQ(complaint(plan_of("exit 0")), "status 0");
+  EXPECT_EQ(complaint(plan_of("exit " + std::to_string(kToldStatus))), "status " + std::to_string(kToldStatus));
+}
+
+TEST(Launch, SpeaksUpWhenTheRanksEndedWithoutAWord) {
+  EXPECT_NE(complaint(plan_of("exit 1")).find("'/bin/sh' ended with status 1 before"), std::string::npos);
+  EXPECT_EQ(complaint(plan_of("exit 139")), "a process was ended by signal 11 (Segmentation fault)");
+  EXPECT_NE(complaint(plan_of("kill -KILL $$")).find("signal 9 (Killed); the memory"), std::string::npos);
+}
+
+TEST(Launch, AddsToTheEnvironmentWithoutOverridingIt) {
+  LaunchPlan plan = plan_of("test \"$SCULPT_TEST_MARK$HOME\" = new/h && exit 2", "starting\n");
+  plan.environment = {{"SCULPT_TEST_MARK", "new"}, {"HOME", "old"}};
   EXPECT_EXIT(
       {
         ::setenv("HOME", "/h", 1);
-        launch(plan);
+        std::exit(launch(plan));
+      },
+      ::testing::ExitedWithCode(2), "");
+}
+
+// A batch system ends the launcher alone; its ranks must hear of it.
+TEST(Launch, PassesSignalsOn) {
+  EXPECT_EXIT(
+      {
+        if (complaint(plan_of("trap 'exit 5' TERM; kill -TERM $PPID; while :; do sleep 0.01; done")) ==
+            "stopped by signal 15 (Terminated)")
+          std::exit(7);
       },
       ::testing::ExitedWithCode(7), "");
 }

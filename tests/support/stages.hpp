@@ -1,0 +1,49 @@
+#pragma once
+// The stages from the overlay grid to the smooth mesh, as the program runs them, on made-up input and in memory.
+#include <string>
+#include <vector>
+
+#include "sculpt/brep/interfaces.hpp"
+#include "sculpt/contour/interface_smoothing.hpp"
+#include "sculpt/filter/filter.hpp"
+#include "sculpt/mesh/hex_mesh.hpp"
+#include "sculpt/smooth/smooth.hpp"
+#include "support/cases.hpp"
+
+namespace sculpt::test {
+
+// The cells of this rank with ghosts, their fractions and the materials with most of each cell (not filtered).
+struct Overlay {
+  HexMesh cells;
+  Fractions fractions;
+};
+[[nodiscard]] Overlay overlay(const Comm& comm, const Case& input, int layers = 2);
+[[nodiscard]] Overlay overlay(const Case& input);  // one rank alone
+// The same after the filter.
+[[nodiscard]] Overlay filtered(const Comm& comm, const Case& input, int layers = 2);
+[[nodiscard]] Overlay filtered(const Case& input);
+
+struct StageOptions {
+  bool pillow_surfaces = false;
+  std::int32_t void_material = -1;  // left out of the mesh
+  InterfaceSmoothing interfaces;
+  SmoothOptions smoothing;
+};
+
+struct StageChecksum {
+  std::string stage;
+  std::int64_t checksum;
+  bool operator==(const StageChecksum&) const = default;
+};
+
+struct StagesResult {
+  HexMesh mesh;
+  std::int64_t cells = 0;  // that are part of the mesh, all ranks
+  std::int64_t quads = 0;  // interface quads of this rank's cells
+  std::vector<StageChecksum> checksums;
+};
+
+// Collective.
+[[nodiscard]] StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions& options = {});
+
+}  // namespace sculpt::test

@@ -58,8 +58,8 @@ void append_fraction(std::string& text, std::int32_t eighths) {
 std::string header(const Counts& n, std::int32_t materials) {
   std::string text = "TITLE = \"Volume fractions\"\nVARIABLES = \"X\", \"Y\", \"Z\"";
   for (std::int32_t m = 1; m <= materials; ++m) text += ", \"VF" + std::to_string(m) + "\"";
-  return text + "\nZONE I=" + std::to_string(n[0]) + ", J=" + std::to_string(n[1]) + ", K=" + std::to_string(n[2]) +
-         ", DATAPACKING=POINT\n";
+  return text + "\nZONE I=" + std::to_string(n[0]) + ", J=" + std::to_string(n[1]) +
+         ", K=" + std::to_string(n[2]) + ", DATAPACKING=POINT\n";
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 namespace microstructure {
 namespace {
 
-constexpr std::int64_t kUnit = 16;       // of lengths, per voxel
-constexpr int kLloydSteps = 3;           // evens out the grain sizes
+constexpr std::int64_t kUnit = 16;         // of lengths, per voxel
+constexpr int kLloydSteps = 3;             // evens out the grain sizes
 constexpr std::int64_t kLloydPoints = 32;  // sample points per axis there, at most
 constexpr std::int64_t kWarpRadius = 6;
 
@@ -16,7 +16,8 @@ struct Seeds {
   std::vector<std::int32_t> x, y, z, weight;
 
   // The seed with the least power distance to a point; ties go to the first.
-  [[nodiscard]] std::int32_t nearest(std::int32_t px, std::int32_t py, std::int32_t pz, std::vector<std::int32_t>& power) const {
+  [[nodiscard]] std::int32_t nearest(std::int32_t px, std::int32_t py, std::int32_t pz,
+                                     std::vector<std::int32_t>& power) const {
     power.resize(x.size());
     for (std::size_t s = 0; s < x.size(); ++s) {
       const std::int32_t dx = x[s] - px, dy = y[s] - py, dz = z[s] - pz;
@@ -57,8 +58,10 @@ void centre_seeds(const Counts& n, Seeds& seeds) {
   for (std::int64_t i = 0; i < n[0]; i += step[0])
     for (std::int64_t j = 0; j < n[1]; j += step[1])
       for (std::int64_t k = 0; k < n[2]; k += step[2]) {
-        const std::int64_t p[3] = {i * kUnit + step[0] * kUnit / 2, j * kUnit + step[1] * kUnit / 2, k * kUnit + step[2] * kUnit / 2};
-        auto& sum = sums[static_cast<std::size_t>(seeds.nearest(static_cast<std::int32_t>(p[0]), static_cast<std::int32_t>(p[1]),
+        const std::int64_t p[3] = {i * kUnit + step[0] * kUnit / 2, j * kUnit + step[1] * kUnit / 2,
+                                   k * kUnit + step[2] * kUnit / 2};
+        auto& sum = sums[static_cast<std::size_t>(seeds.nearest(static_cast<std::int32_t>(p[0]),
+                                                                static_cast<std::int32_t>(p[1]),
                                                                 static_cast<std::int32_t>(p[2]), power))];
         for (std::size_t d = 0; d < 3; ++d) sum[d] += p[d];
         ++sum[3];

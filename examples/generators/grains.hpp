@@ -1,5 +1,6 @@
 #pragma once
-// Polycrystals: a Laguerre tessellation of random seeds in a gently warped space, roughened by a few Potts sweeps.
+// Polycrystals: a Laguerre tessellation of random seeds in a gently warped space, roughened by a few Potts
+// sweeps.
 #include "voxels.hpp"
 
 namespace microstructure {

@@ -1,5 +1,5 @@
-// microstructure KIND ... FILE: makes the inputs of the examples and benchmarks. The same command gives the same bytes
-// on every machine.
+// microstructure KIND ... FILE: makes the inputs of the examples and benchmarks. The same command gives the
+// same bytes on every machine.
 #include <charconv>
 #include <cstdio>
 #include <exception>
@@ -39,7 +39,8 @@ class Arguments {
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size() || value < lo || value > hi)
-      throw std::runtime_error("found '" + word + "', expected an integer from " + std::to_string(lo) + " to " + std::to_string(hi));
+      throw std::runtime_error("found '" + word + "', expected an integer from " + std::to_string(lo) +
+                               " to " + std::to_string(hi));
     return value;
   }
   Counts counts() {

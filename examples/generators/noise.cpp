@@ -9,7 +9,8 @@ namespace {
 constexpr int kPasses = 3;
 
 // Sliding sum along one line of voxels, `stride` apart.
-void blur_line(std::int64_t* first, std::size_t stride, std::int64_t n, std::int64_t radius, std::vector<std::int64_t>& line) {
+void blur_line(std::int64_t* first, std::size_t stride, std::int64_t n, std::int64_t radius,
+               std::vector<std::int64_t>& line) {
   line.resize(static_cast<std::size_t>(n));
   for (std::size_t i = 0; i < line.size(); ++i) line[i] = first[i * stride];
   const auto wrapped = [&](std::int64_t i) { return line[static_cast<std::size_t>(((i % n) + n) % n)]; };

@@ -8,10 +8,12 @@ namespace microstructure {
 namespace {
 
 constexpr std::int32_t kPore = 1, kSplat = 2, kOtherSplat = 3;
-constexpr std::int64_t kStartDepth = 30;  // below the box: the first splats lie on flat ground and are not typical
+constexpr std::int64_t kStartDepth =
+    30;  // below the box: the first splats lie on flat ground and are not typical
 constexpr std::int64_t kShallow = 2, kDeep = 3;  // gaps below a splat that stay open, in voxels
-constexpr std::int64_t kSeamPores = 14;    // voxels in 1000 at a seam of two splats that are pores
-constexpr std::int64_t kSeamMixes = 60;    // voxels in 1000 there that take the id from across
+constexpr std::int64_t kRunDown = 10;            // what a splat adds to its thickness in a deep hole, at most
+constexpr std::int64_t kSeamPores = 14;          // voxels in 1000 at a seam of two splats that are pores
+constexpr std::int64_t kSeamMixes = 60;          // voxels in 1000 there that take the id from across
 
 class Deposit {
  public:
@@ -42,7 +44,8 @@ class Deposit {
       for (std::int64_t dj = -radius_y; dj <= radius_y; ++dj) {
         const std::int64_t inside = rim - di * di * radius_y * radius_y - dj * dj * radius_x * radius_x;
         if (inside <= 0) continue;
-        columns_.push_back({(x + di + n_[0]) % n_[0], (y + dj + n_[1]) % n_[1], 1 + thickness * inside / rim});
+        columns_.push_back(
+            {(x + di + n_[0]) % n_[0], (y + dj + n_[1]) % n_[1], 1 + thickness * inside / rim});
       }
     const std::int64_t support = support_height();
     for (const Column& c : columns_) lay(c, id, support);
@@ -57,13 +60,14 @@ class Deposit {
     return *seventh;
   }
 
-  // The splat is level on top. It covers hills with one voxel, leaves narrow gaps open and fills what is shallower or
-  // deeper.
+  // The splat is level on top. It covers hills with one voxel, leaves narrow gaps open, fills shallow ones
+  // and runs down deep ones.
   void lay(const Column& c, std::int32_t id, std::int64_t support) {
     std::int64_t& height = height_.at(c.i, c.j, 0);
     const std::int64_t gap = support - height;
     const std::int64_t bottom = gap >= kShallow && gap <= kDeep ? support : height;
-    const std::int64_t top = std::max(support + c.thickness, height + 1);
+    const std::int64_t level = std::max(support + c.thickness, height + 1);
+    const std::int64_t top = gap > kDeep ? std::min(level, height + c.thickness + kRunDown) : level;
     for (std::int64_t k = bottom; k < std::min(top, voxels_.n[2]); ++k) voxels_.at(c.i, c.j, k) = id;
     height = top;
   }

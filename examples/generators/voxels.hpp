@@ -19,7 +19,9 @@ struct Box {
   explicit Box(const Counts& counts, T value = {})
       : n(counts), values(static_cast<std::size_t>(counts[0] * counts[1] * counts[2]), value) {}
   [[nodiscard]] T& at(std::int64_t i, std::int64_t j, std::int64_t k) { return values[index(i, j, k)]; }
-  [[nodiscard]] const T& at(std::int64_t i, std::int64_t j, std::int64_t k) const { return values[index(i, j, k)]; }
+  [[nodiscard]] const T& at(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    return values[index(i, j, k)];
+  }
   [[nodiscard]] std::size_t index(std::int64_t i, std::int64_t j, std::int64_t k) const {
     return static_cast<std::size_t>(k + n[2] * (j + n[1] * i));
   }

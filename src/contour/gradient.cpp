@@ -30,17 +30,33 @@ Vec3 solve(const Symmetric& a, const Vec3& b) {
 }  // namespace
 
 Vec3 GradientStencil::centre(LocalId cell) const {
+  const Hex& hex = mesh_.hexes[static_cast<std::size_t>(cell)];
+  if (mesh_.lattice[0] != 0)
+    return 0.5 * (mesh_.position[static_cast<std::size_t>(hex[0])] + mesh_.position[static_cast<std::size_t>(hex[6])]);
   Vec3 sum;
-  for (const LocalId n : mesh_.hexes[static_cast<std::size_t>(cell)]) sum += mesh_.position[static_cast<std::size_t>(n)];
+  for (const LocalId n : hex) sum += mesh_.position[static_cast<std::size_t>(n)];
   return 0.125 * sum;
 }
 
-void GradientStencil::gather(LocalId cell) {
+// The cells that share a node with this one, and itself, ascending. In a lattice: the 3x3x3 block around it.
+void GradientStencil::find_cells(LocalId cell) {
   cells_.clear();
+  const auto [nx, ny, nz] = mesh_.lattice;
+  if (nx != 0) {
+    const LocalId i = cell % nx, j = cell / nx % ny, k = cell / nx / ny;
+    for (LocalId c = std::max(k - 1, 0); c <= std::min(k + 1, nz - 1); ++c)
+      for (LocalId b = std::max(j - 1, 0); b <= std::min(j + 1, ny - 1); ++b)
+        for (LocalId a = std::max(i - 1, 0); a <= std::min(i + 1, nx - 1); ++a) cells_.push_back(a + nx * (b + ny * c));
+    return;
+  }
   for (const LocalId n : mesh_.hexes[static_cast<std::size_t>(cell)])
     for (const std::int32_t item : around_[n]) cells_.push_back(item / 8);
   std::sort(cells_.begin(), cells_.end());
   cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+}
+
+void GradientStencil::gather(LocalId cell) {
+  find_cells(cell);
   const Vec3 here = centre(cell);
   neighbours_.clear();
   for (const LocalId c : cells_) neighbours_.push_back({c, centre(c) - here});

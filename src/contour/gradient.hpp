@@ -27,6 +27,7 @@ class GradientStencil {
     Vec3 offset;
   };
   [[nodiscard]] Vec3 centre(LocalId cell) const;
+  void find_cells(LocalId cell);
   void gather(LocalId cell);
   void mirror(LocalId cell);
 

@@ -143,12 +143,6 @@ void ExodusFile::must(int status, const char* doing) const {
 
 void ExodusFile::close_written() {
   must(ex_close(std::exchange(id_, -1)), "closing the file");
-  const int descriptor = ::open(path_.c_str(), O_RDWR | O_CLOEXEC);
-  const bool flushed = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS);
-  const int failure = errno;
-  const bool closed = descriptor < 0 || ::close(descriptor) == 0;
-  if (!flushed || !closed)
-    throw Error(fmt::format("'{}', closing the file: {}", path_, std::strerror(flushed ? errno : failure)));
 }
 
 }  // namespace sculpt

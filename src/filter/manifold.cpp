@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <unordered_map>
 
 #include "filter/ring.hpp"
 #include "sculpt/filter/filter.hpp"
@@ -74,7 +75,6 @@ class Repair {
       if (bad_[at(n)] && owned(n)) active_.push_back(n);
     }
     complete_ = std::move(complete);
-    proposals_.resize(mesh_.position.size());
   }
   bool owned(LocalId n) const { return mesh_.node_owner[at(n)] == mesh_.node_exchange.comm().rank(); }
 
@@ -191,10 +191,10 @@ class Repair {
     for (const LocalId n : active_) {
       if (stale_[at(n)] || last_resort_) {
         Proposal p = cheapest(n);
-        proposals_[at(n)] = {p.cost, {p.flips.begin(), p.flips.begin() + p.count}};
+        proposals_[n] = {p.cost, {p.flips.begin(), p.flips.begin() + p.count}};
       }
       stale_[at(n)] = 0;
-      claim_[at(n)] = proposals_[at(n)].cost;
+      claim_[at(n)] = proposals_.at(n).cost;
     }
   }
 
@@ -227,7 +227,7 @@ class Repair {
     std::vector<std::uint8_t> won(mesh_.position.size(), 0);
     for (const LocalId n : winners) {
       won[at(n)] = 1;
-      for (const Flip& f : proposals_[at(n)].flips) {
+      for (const Flip& f : proposals_.at(n).flips) {
         change(around_[n][static_cast<std::size_t>(f.slot)] / 8, f.to);
         ++changes;
       }
@@ -246,8 +246,8 @@ class Repair {
     mesh_.node_exchange.send_records(
         [&](LocalId n, std::vector<char>& bytes) {
           if (!won[at(n)]) return;
-          G::append(bytes, static_cast<std::int32_t>(proposals_[at(n)].flips.size()));
-          for (const Flip& f : proposals_[at(n)].flips) {
+          G::append(bytes, static_cast<std::int32_t>(proposals_.at(n).flips.size()));
+          for (const Flip& f : proposals_.at(n).flips) {
             G::append(bytes, mesh_.hex_id[at(around_[n][static_cast<std::size_t>(f.slot)] / 8)]);
             G::append(bytes, f.to);
           }
@@ -300,7 +300,7 @@ class Repair {
   std::vector<std::uint8_t> complete_;  // per node
   std::vector<std::uint8_t> stale_;     // per node: its proposal must be made anew
   std::vector<double> claim_;           // per node: cost of its proposal in this pass
-  std::vector<Stored> proposals_;
+  std::unordered_map<LocalId, Stored> proposals_;  // of active nodes; looked up, never walked
   std::vector<LocalId> active_;         // owned non-manifold nodes, ascending
   std::vector<LocalId> claimed_ghosts_, changed_cells_, touched_;
   mutable std::array<std::int32_t, Ring::kMost> scratch_{};
@@ -324,6 +324,7 @@ bool interfaces_are_manifold(const HexMesh& mesh, const FaceNeighbours& neighbou
       seen[at(n)] = 1;
       material.clear();
       for (const std::int32_t item : around[n]) material.push_back(mesh.material[at(item / 8)]);
+      if (std::all_of(material.begin(), material.end(), [&](std::int32_t m) { return m == material.front(); })) continue;
       if (!ring_of(mesh, neighbours, around, n).manifold(material)) return false;
     }
   }

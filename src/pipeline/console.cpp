@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 
@@ -9,6 +10,8 @@ namespace sculpt {
 namespace {
 
 constexpr double kUnits = 1073741824.0;  // 2^30 per unit of volume of a cell: sums of integers do not depend on ranks
+
+constexpr int kVolumePasses = 5;  // of the Laplacian on volume nodes; more change nothing that the optimisation keeps
 
 std::string time_text() {
   const std::time_t now = std::time(nullptr);
@@ -34,7 +37,7 @@ InterfaceSmoothing interface_smoothing(const Deck& deck) {
 
 SmoothOptions smooth_options(const Deck& deck) {
   SmoothOptions s;
-  s.laplacian_passes = deck.laplacian_iters;
+  s.laplacian_passes = std::min(deck.laplacian_iters, kVolumePasses);
   s.improve_sweeps = deck.max_opt_iters;
   s.improve_below = deck.opt_threshold;
   s.target = deck.pcol_threshold;
@@ -76,7 +79,7 @@ void print_smoothing_banner(const Log& log, const Deck& deck) {
 }
 
 void print_mesh_summary(const Comm& comm, const Log& log, const Deck& deck, const WriteSummary& written,
-                        const QualitySummary& quality, std::int64_t folded_inside) {
+                        const QualitySummary& quality) {
   log.line();
   log.line("MESH SUMMARY");
   log.line("  Base Filename         {}", deck.exodus_file);
@@ -94,7 +97,8 @@ void print_mesh_summary(const Comm& comm, const Log& log, const Deck& deck, cons
   log.line("  Min Qual Rank         {}", quality.least_rank);
   if (quality.hexes > 0 && quality.least < deck.pcol_threshold)
     log.line("  Worst hex at          {:g} {:g} {:g}", quality.least_at.x, quality.least_at.y, quality.least_at.z);
-  if (folded_inside > 0) log.line("WARNING: the Jacobian of {} hexes is not positive everywhere inside", folded_inside);
+  if (quality.not_positive_inside > 0)
+    log.line("WARNING: the Jacobian of {} hexes is not positive everywhere inside", quality.not_positive_inside);
 }
 
 void print_end(const Comm& comm, const Log& log, double seconds) {

@@ -20,7 +20,7 @@ void print_skipped_steps(const Log& log);  // stair meshes pass through them
 void print_smoothing_banner(const Log& log, const Deck& deck);
 // Collective.
 void print_mesh_summary(const Comm& comm, const Log& log, const Deck& deck, const WriteSummary& written,
-                        const QualitySummary& quality, std::int64_t folded_inside);
+                        const QualitySummary& quality);
 void print_end(const Comm& comm, const Log& log, double seconds);
 
 // Volume of each material by its volume fractions; compare_volume sets it beside that of the mesh.

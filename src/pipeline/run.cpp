@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ctime>
 #include <limits>
+#include <optional>
 
 #include "pipeline/console.hpp"
 #include "sculpt/brep/interfaces.hpp"
@@ -24,11 +25,13 @@ namespace {
 
 constexpr double kFirstOffset = 0.3, kSecondOffset = 0.5;  // of pillow copies towards the inside
 
-// The overlay mesh with its materials.
+// The overlay mesh with its materials, and its adjacency for the stages that work on it.
 struct Overlay {
   HexMesh cells;
   Fractions fractions;
   MaterialTable materials;
+  FaceNeighbours neighbours;
+  std::optional<NodeHexes> around;
 };
 
 bool surface_pillows(const Deck& deck) { return deck.pillow_surfaces || deck.pillow == kPillowSurfaces; }
@@ -59,7 +62,7 @@ Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages&
   MaterialData data = source->read(comm, wanted);
   stages.end("read input");
 
-  Overlay overlay{lattice_mesh(comm, grid, parts, layers), std::move(data.fractions), std::move(data.table)};
+  Overlay overlay{lattice_mesh(comm, grid, parts, layers), std::move(data.fractions), std::move(data.table), {}, {}};
   if (deck.micro_expand > 0)
     overlay.fractions = expand_fractions(overlay.fractions, wanted[static_cast<std::size_t>(comm.rank())],
                                          parts.ghosted(comm.rank(), layers), deck.micro_expand, source->grid().cells);
@@ -80,7 +83,7 @@ std::vector<std::uint8_t> unmeshed_cells(const Deck& deck, const Overlay& overla
 
 void classify(const Comm& comm, const Deck& deck, Overlay& overlay, const Log& log, Stages& stages) {
   HexMesh& cells = overlay.cells;
-  const FaceNeighbours neighbours = face_neighbours(cells);
+  const FaceNeighbours& neighbours = overlay.neighbours = face_neighbours(cells);
   log.line("(2/9) classifying materials...");
   assign_materials(cells, overlay.fractions, neighbours);
   if (deck.micro_shave) {
@@ -91,12 +94,13 @@ void classify(const Comm& comm, const Deck& deck, Overlay& overlay, const Log& l
   stages.end("classify materials");
   log.line("(3/9) resolving non-manifolds...");
   if (deck.stair == kStairFast) return;
-  const ManifoldReport report = resolve_non_manifold(cells, overlay.fractions, neighbours, NodeHexes(cells));
+  const NodeHexes& around = overlay.around.emplace(cells);
+  const ManifoldReport report = resolve_non_manifold(cells, overlay.fractions, neighbours, around);
   log.line("  {} non-manifold nodes, {} cells reassigned in {} passes", report.bad_nodes, report.changed_cells, report.passes);
   if (report.forced_nodes > 0) log.line("  WARNING: {} nodes were settled by merging their materials", report.forced_nodes);
   follow_assignment(overlay.fractions, cells.material);
   collectively(comm, "resolving non-manifolds", [&] {
-    check(interfaces_are_manifold(cells, neighbours, NodeHexes(cells)), "a material interface is not manifold");
+    check(interfaces_are_manifold(cells, neighbours, around), "a material interface is not manifold");
   });
   stages.end("resolve non-manifolds");
 }
@@ -110,9 +114,9 @@ struct Contour {
 Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stages) {
   HexMesh& cells = overlay.cells;
   Contour c;
-  c.faces = trace_interfaces(cells, face_neighbours(cells));
+  c.faces = trace_interfaces(cells, overlay.neighbours);
   log.line("(4/9) computing dual edge intersections...");
-  const std::vector<Crossing> crossings = edge_crossings(cells, c.faces, overlay.fractions, NodeHexes(cells));
+  const std::vector<Crossing> crossings = edge_crossings(cells, c.faces, overlay.fractions, *overlay.around);
   log.line("(5/9) computing material interfaces...");
   std::vector<Vec3> grid_position;
   for (const LocalId n : c.faces.nodes) grid_position.push_back(cells.position[static_cast<std::size_t>(n)]);
@@ -151,6 +155,8 @@ HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, const Lo
   }
   const Contour shape = contour(deck, overlay, log, stages);
   overlay.fractions = {};
+  overlay.around.reset();
+  overlay.neighbours = {};
   log.line("(6/9) generating geometry...");
   log.line("(7/9) generating buffer hexes...");
   log.line("(8/9) generating interior hexes...");
@@ -199,20 +205,20 @@ void run(const Comm& comm, const Deck& deck) {
   log.line("begin SCULPT meshing...");
   log.line("(1/9) computing normals...");
   const MaterialTable materials = overlay.materials;
+  std::optional<VolumeTable> input_volumes;
+  if (deck.compare_volume) input_volumes.emplace(comm, overlay.cells, overlay.fractions, materials);
   classify(comm, deck, overlay, log, stages);
-  const VolumeTable input_volumes(comm, overlay.cells, overlay.fractions, materials);
   const HexMesh mesh = build_mesh(comm, deck, std::move(overlay), log, stages);
 
   log.line("building exodus mesh...");
   log.line("generating global ids...");
   const QualitySummary quality = summarise(comm, mesh);
-  const std::int64_t folded = count_not_positive_inside(comm, mesh);
   stages.end("check quality");
   if (comm.size() > 1) log.line("generating parallel communication maps...");
   const WriteSummary written = write_mesh(comm, mesh, {}, write_options(deck, materials));
   stages.end("write files");
-  if (deck.compare_volume) input_volumes.compare(comm, mesh, log);
-  print_mesh_summary(comm, log, deck, written, quality, folded);
+  if (input_volumes) input_volumes->compare(comm, mesh, log);
+  print_mesh_summary(comm, log, deck, written, quality);
   stages.print(comm, log, written.hexes);
   print_end(comm, log, stages.seconds());
 }

@@ -1,6 +1,9 @@
 #include "smooth/active_set.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "smooth/quality.hpp"
 
 namespace sculpt {
 namespace {
@@ -17,33 +20,70 @@ ActiveSet::ActiveSet(HexMesh& mesh)
 }
 
 void ActiveSet::refresh_all_quality() {
-  for (LocalId h = 0; h < mesh_.size(); ++h) quality_[at(h)] = static_cast<float>(scaled_jacobian(mesh_.corners(h)));
+  std::fill(dirty_.begin(), dirty_.end(), std::uint8_t{1});
+  refresh_dirty(0, mesh_.size());
 }
 
-void ActiveSet::mark(LocalId node, std::vector<LocalId>& front) {
-  if (marked_[at(node)]) return;
-  marked_[at(node)] = 1;
-  changed_[at(node)] = owned(node);
-  front.push_back(node);
+// In ascending order, which is the order of memory.
+void ActiveSet::refresh_dirty(LocalId first, LocalId last) {
+  std::array<LocalId, 8> batch;
+  std::size_t count = 0;
+  const auto measure = [&] {
+    const HexQuality q = quality_of(mesh_.hexes, mesh_.position, {batch.data(), count});
+    for (std::size_t i = 0; i < count; ++i) quality_[at(batch[i])] = static_cast<float>(q.scaled_jacobian[i]);
+    count = 0;
+  };
+  for (LocalId h = first; h < last; ++h) {
+    if (!dirty_[at(h)]) continue;
+    dirty_[at(h)] = 0;
+    batch[count++] = h;
+    if (count == batch.size()) measure();
+  }
+  if (count > 0) measure();
+}
+
+void ActiveSet::spread(std::vector<std::uint8_t>& marks, std::vector<LocalId>& front) {
+  const std::size_t before = front.size();
+  const auto mark = [&](LocalId n) {
+    if (marks[at(n)]) return;
+    marks[at(n)] = 1;
+    front.push_back(n);
+  };
+  if (before > mesh_.position.size() / 32) {  // one pass over all hexes is cheaper than a walk from node to node
+    for (const LocalId n : front) marks[at(n)] = 2;
+    for (const Hex& hex : mesh_.hexes) {
+      bool touches = false;
+      for (const LocalId n : hex) touches = touches || marks[at(n)] == 2;
+      if (touches)
+        for (const LocalId n : hex) mark(n);
+    }
+    for (std::size_t i = 0; i < before; ++i) marks[at(front[i])] = 1;
+  } else {
+    for (std::size_t i = 0; i < before; ++i)
+      for (const std::int32_t item : around_[front[i]])
+        for (const LocalId other : mesh_.hexes[at(item / 8)]) mark(other);
+  }
+  front.erase(front.begin(), front.begin() + static_cast<std::ptrdiff_t>(before));
 }
 
 std::int64_t ActiveSet::choose(double quality, int layers, bool only_near) {
   std::fill(marked_.begin(), marked_.end(), std::uint8_t{0});
-  std::vector<LocalId> front, next;
+  std::vector<LocalId> front;
   for (LocalId h = 0; h < mesh_.size(); ++h)
     if (static_cast<double>(quality_[at(h)]) < quality)
-      for (const LocalId n : mesh_.hexes[at(h)]) mark(n, front);
+      for (const LocalId n : mesh_.hexes[at(h)])
+        if (!marked_[at(n)]) {
+          marked_[at(n)] = 1;
+          front.push_back(n);
+        }
   for (int layer = 0; layer < layers; ++layer) {
     // A ghost may lie in a bad hex that only its owner sees.
+    for (const LocalId n : front) changed_[at(n)] = owned(n);
     mesh_.node_exchange.copy_changed(std::span<std::uint8_t>(marked_), std::span<std::uint8_t>(changed_),
                                      [&](LocalId ghost) { front.push_back(ghost); });
-    next.clear();
-    for (const LocalId n : front)
-      for (const std::int32_t item : around_[n])
-        for (const LocalId other : mesh_.hexes[at(item / 8)]) mark(other, next);
-    front.swap(next);
+    for (const LocalId n : front) changed_[at(n)] = 0;
+    spread(marked_, front);
   }
-  std::fill(changed_.begin(), changed_.end(), std::uint8_t{0});
   std::int64_t count = 0;
   for (auto& list : chosen_) list.clear();
   for (LocalId n = 0; n < mesh_.nodes(); ++n)
@@ -58,7 +98,10 @@ std::int64_t ActiveSet::sweep(const std::function<bool(LocalId)>& step, double f
   std::int64_t moves = 0;
   moved_.clear();
   for (std::size_t colour = 0; colour < chosen_.size(); ++colour) {
-    for (const LocalId n : chosen_[colour]) {
+    const auto& nodes = chosen_[colour];
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const LocalId n = nodes[i];
+      if (i + 2 < nodes.size()) fetch_ahead(nodes[i + 2], nodes[i + 1]);
       const Vec3 before = mesh_.position[at(n)];
       if (!step(n)) continue;
       ++moves;
@@ -70,15 +113,24 @@ std::int64_t ActiveSet::sweep(const std::function<bool(LocalId)>& step, double f
     exchange_moves(far * far, static_cast<int>(colour));
   }
   std::fill(near_.begin(), near_.end(), std::uint8_t{0});
+  std::vector<LocalId> far_nodes;
   for (const LocalId n : moved_) {
     changed_[at(n)] = 0;
     if (!far_moved_[at(n)]) continue;
     far_moved_[at(n)] = 0;
-    for (const std::int32_t item : around_[n])
-      for (const LocalId other : mesh_.hexes[at(item / 8)]) near_[at(other)] = 1;
+    near_[at(n)] = 1;
+    far_nodes.push_back(n);
   }
+  spread(near_, far_nodes);
   refresh_quality();
   return comm().sum(moves);
+}
+
+// Starts loading what the visits after the next one will read: hexes first, their positions when those are there.
+void ActiveSet::fetch_ahead(LocalId hexes_of, LocalId positions_of) const {
+  for (const std::int32_t item : around_[hexes_of]) __builtin_prefetch(&mesh_.hexes[at(item / 8)]);
+  for (const std::int32_t item : around_[positions_of])
+    for (const LocalId n : mesh_.hexes[at(item / 8)]) __builtin_prefetch(&mesh_.position[at(n)]);
 }
 
 void ActiveSet::exchange_moves(double far_squared, int colour) {
@@ -99,17 +151,14 @@ void ActiveSet::exchange_moves(double far_squared, int colour) {
 }
 
 void ActiveSet::refresh_quality() {
-  std::vector<LocalId> hexes;
+  LocalId first = mesh_.size(), last = 0;
   for (const LocalId n : moved_)
-    for (const std::int32_t item : around_[n])
-      if (!dirty_[at(item / 8)]) {
-        dirty_[at(item / 8)] = 1;
-        hexes.push_back(item / 8);
-      }
-  for (const LocalId h : hexes) {
-    dirty_[at(h)] = 0;
-    quality_[at(h)] = static_cast<float>(scaled_jacobian(mesh_.corners(h)));
-  }
+    for (const std::int32_t item : around_[n]) {
+      dirty_[at(item / 8)] = 1;
+      first = std::min(first, item / 8);
+      last = std::max(last, item / 8 + 1);
+    }
+  refresh_dirty(first, last);
 }
 
 ActiveSet::Worst ActiveSet::worst(double target) const {

@@ -39,9 +39,12 @@ class ActiveSet {
   void refresh_all_quality();
 
  private:
-  void mark(LocalId node, std::vector<LocalId>& front);
+  // Marks the nodes of all hexes that have a node of `front` (all marked 1); front becomes the newly marked ones.
+  void spread(std::vector<std::uint8_t>& marks, std::vector<LocalId>& front);
+  void fetch_ahead(LocalId hexes_of, LocalId positions_of) const;
   void exchange_moves(double far_squared, int colour);
   void refresh_quality();
+  void refresh_dirty(LocalId first, LocalId last);
 
   HexMesh& mesh_;
   NodeHexes around_;
@@ -53,7 +56,6 @@ class ActiveSet {
   std::vector<std::vector<LocalId>> chosen_;  // per colour
   std::vector<LocalId> moved_;           // in this sweep, ghosts included
   std::vector<std::uint8_t> dirty_;      // per hex
-  std::vector<GhostExchange::Link> send_, receive_;
 };
 
 }  // namespace sculpt

@@ -5,25 +5,26 @@ namespace {
 
 std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
 
-// Owned volume nodes in hexes with an interface node and in the hexes around those, ascending.
-std::vector<LocalId> nodes_near_interfaces(const HexMesh& mesh, const NodeHexes& around, const Geometry& geometry) {
-  std::vector<std::uint8_t> near(mesh.position.size(), 0);
+// Marks the nodes of all hexes that have a marked node.
+void mark_layer(const HexMesh& mesh, const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to) {
   for (const Hex& hex : mesh.hexes) {
     bool touches = false;
-    for (const LocalId n : hex) touches = touches || geometry.index[at(n)] != kNone;
+    for (const LocalId n : hex) touches = touches || from[at(n)] != 0;
     if (!touches) continue;
-    for (const LocalId n : hex)
-      if (geometry.index[at(n)] == kNone) near[at(n)] = 1;
+    for (const LocalId n : hex) to[at(n)] = 1;
   }
-  mesh.node_exchange.copy_to_ghosts(near);
+  mesh.node_exchange.copy_to_ghosts(to);  // the owner sees all hexes of a node
+}
+
+// Owned volume nodes in hexes with an interface node and in the hexes around those, ascending.
+std::vector<LocalId> nodes_near_interfaces(const HexMesh& mesh, const Geometry& geometry) {
+  std::vector<std::uint8_t> interface(mesh.position.size(), 0), beside(mesh.position.size(), 0), near(mesh.position.size(), 0);
+  for (std::size_t n = 0; n < interface.size(); ++n) interface[n] = geometry.index[n] != kNone;
+  mark_layer(mesh, interface, beside);
+  mark_layer(mesh, beside, near);
   std::vector<LocalId> chosen;
-  for (LocalId n = 0; n < mesh.nodes(); ++n) {
-    if (geometry.index[at(n)] != kNone || mesh.node_owner[at(n)] != mesh.node_exchange.comm().rank()) continue;
-    bool wanted = near[at(n)] != 0;
-    for (const std::int32_t item : around[n])
-      for (const LocalId other : mesh.hexes[at(item / 8)]) wanted = wanted || near[at(other)] != 0;
-    if (wanted) chosen.push_back(n);
-  }
+  for (LocalId n = 0; n < mesh.nodes(); ++n)
+    if (near[at(n)] && !interface[at(n)] && mesh.node_owner[at(n)] == mesh.node_exchange.comm().rank()) chosen.push_back(n);
   return chosen;
 }
 
@@ -44,7 +45,7 @@ Vec3 towards_neighbours(const HexMesh& mesh, const NodeHexes& around, LocalId no
 }  // namespace
 
 void laplacian_passes(HexMesh& mesh, const NodeHexes& around, const Geometry& geometry, int passes, const Log& log) {
-  const std::vector<LocalId> nodes = nodes_near_interfaces(mesh, around, geometry);
+  const std::vector<LocalId> nodes = nodes_near_interfaces(mesh, geometry);
   std::vector<Vec3> moves(nodes.size());
   for (int pass = 1; pass <= passes; ++pass) {
     log.line("Laplacian Iter: {}", pass);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "smooth/active_set.hpp"
 #include "smooth/laplacian.hpp"
@@ -149,65 +148,6 @@ class Phases {
 
 void smooth_mesh(HexMesh& mesh, const Geometry& geometry, const SmoothOptions& options, const Log& log) {
   Phases(mesh, geometry, options, log).run();
-}
-
-QualitySummary summarise(const Comm& comm, const HexMesh& mesh) {
-  constexpr double kUnits = 1099511627776.0;  // 2^40
-  QualitySummary s;
-  std::int64_t units_high = 0, units = 0;
-  s.least = 2;
-  s.shortest_edge = std::numeric_limits<double>::infinity();
-  std::array<std::int64_t, 4> counts{0, 0, 0, 0};
-  LocalId worst = kNone;
-  for (LocalId h = 0; h < mesh.size(); ++h) {
-    if (mesh.layer[static_cast<std::size_t>(h)] != 0) continue;
-    const HexCorners p = mesh.corners(h);
-    const double q = scaled_jacobian(p);
-    ++counts[0];
-    counts[1] += q <= 0;
-    counts[2] += q < 0.2;
-    counts[3] += q < 0.3;
-    units += static_cast<std::int64_t>(std::llround(q * kUnits));
-    units_high += units >> 40;  // carries keep the sum in range for any number of hexes
-    units &= (std::int64_t{1} << 40) - 1;
-    if (q < s.least) {
-      s.least = q;
-      worst = h;
-    }
-    s.shortest_edge = std::min(s.shortest_edge, shortest_edge(p));
-  }
-  comm.sum(counts);
-  const double least = comm.min(s.least);
-  const bool mine = worst != kNone && s.least == least;
-  s.hexes = counts[0];
-  s.not_positive = counts[1];
-  s.below_02 = counts[2];
-  s.below_03 = counts[3];
-  s.least = s.hexes > 0 ? least : 1;
-  s.least_hex = comm.min(mine ? mesh.hex_id[static_cast<std::size_t>(worst)] : std::numeric_limits<GlobalId>::max());
-  const bool named = mine && mesh.hex_id[static_cast<std::size_t>(worst)] == s.least_hex;
-  s.least_rank = static_cast<int>(comm.max(std::int64_t{named ? comm.rank() : 0}));
-  Vec3 centre;
-  if (named)
-    for (const Vec3& p : mesh.corners(worst)) centre += 0.125 * p;
-  std::vector<Vec3> at{centre};
-  comm.broadcast(at, s.least_rank);
-  s.least_at = at[0];
-  const double all = static_cast<double>(comm.sum(units_high)) + static_cast<double>(comm.sum(units)) / kUnits;
-  s.average = s.hexes > 0 ? all / static_cast<double>(s.hexes) : 0;
-  s.shortest_edge = comm.min(s.shortest_edge);
-  return s;
-}
-
-std::int64_t count_not_positive_inside(const Comm& comm, const HexMesh& mesh) {
-  constexpr double kSafe = 0.9;  // corners this good leave no room for a fold
-  std::int64_t count = 0;
-  for (LocalId h = 0; h < mesh.size(); ++h) {
-    if (mesh.layer[static_cast<std::size_t>(h)] != 0) continue;
-    const HexCorners p = mesh.corners(h);
-    count += scaled_jacobian(p) < kSafe && !is_positive_inside(p);
-  }
-  return comm.sum(count);
 }
 
 }  // namespace sculpt

@@ -3,14 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-// The kernels are compiled for several instruction sets; lanes make the result the same in all of them.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && defined(__GNUC__) && !defined(__clang__)
-#define SCULPT_KERNEL __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define SCULPT_KERNEL
-#endif
-#define SCULPT_INLINE inline __attribute__((always_inline))
-
 namespace sculpt {
 namespace {
 
@@ -34,46 +26,26 @@ constexpr std::array<std::array<int, 6>, 8> kStarNodes = [] {
   return nodes;
 }();
 
-SCULPT_INLINE Lanes splat(double x) { return Lanes{x, x, x, x, x, x, x, x}; }
-SCULPT_INLINE Lanes largest(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
-SCULPT_INLINE Lanes smallest(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
-SCULPT_INLINE Lanes root(const Lanes& a) {
-  Lanes r;
-  for (int l = 0; l < 8; ++l) r[l] = __builtin_sqrt(a[l]);
-  return r;
-}
-SCULPT_INLINE double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
-SCULPT_INLINE double least(const Lanes& a) {
-  double m = a[0];
-  for (int l = 1; l < 8; ++l) m = a[l] < m ? a[l] : m;
-  return m;
-}
-
-struct Vec3Lanes {
-  Lanes x, y, z;
-};
-SCULPT_INLINE Vec3Lanes operator-(const Vec3Lanes& a, const Vec3Lanes& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-SCULPT_INLINE Lanes dot(const Vec3Lanes& a, const Vec3Lanes& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-SCULPT_INLINE Vec3Lanes cross(const Vec3Lanes& a, const Vec3Lanes& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-// Inverse target lengths of the three edges of a corner.
-SCULPT_INLINE void inverse_targets(const Lanes (&length)[3], bool unit, Lanes (&inverse)[3]) {
+// Inverse target lengths of the three edges of a corner, and their product, by one division.
+SCULPT_INLINE Lanes inverse_targets(const Lanes (&length)[3], bool unit, Lanes (&inverse)[3]) {
   if (unit) {
     for (Lanes& i : inverse) i = splat(1);
-    return;
+    return splat(1);
   }
   const Lanes least_length =
       largest(splat(kLengthRatio) * largest(largest(length[0], length[1]), length[2]), splat(kLengthFloor));
-  for (int k = 0; k < 3; ++k) inverse[k] = 1.0 / largest(length[k], least_length);
+  const Lanes a = largest(length[0], least_length), b = largest(length[1], least_length), c = largest(length[2], least_length);
+  const Lanes ab = a * b, product = 1.0 / (ab * c);
+  inverse[0] = product * (b * c);
+  inverse[1] = product * (a * c);
+  inverse[2] = product * ab;
+  return product;
 }
 
 // Tetrahedron with its apex at the moving node.
 SCULPT_INLINE void apex_tet(const Vec3Lanes (&e)[3], const Lanes (&length)[3], bool unit, TetLanes& t) {
   Lanes inverse[3];
-  inverse_targets(length, unit, inverse);
-  const Lanes product = inverse[0] * inverse[1] * inverse[2];
+  const Lanes product = inverse_targets(length, unit, inverse);
   const Vec3Lanes c01 = cross(e[0], e[1]), c12 = cross(e[1], e[2]), c20 = cross(e[2], e[0]);
   t.gx = -product * (c12.x + c20.x + c01.x);
   t.gy = -product * (c12.y + c20.y + c01.y);
@@ -95,8 +67,7 @@ SCULPT_INLINE void apex_tet(const Vec3Lanes (&e)[3], const Lanes (&length)[3], b
 SCULPT_INLINE void leaf_tet(const Vec3Lanes (&e)[3], const Lanes& length0, bool unit, TetLanes& t) {
   const Lanes length[3] = {length0, root(dot(e[1], e[1])), root(dot(e[2], e[2]))};
   Lanes inverse[3];
-  inverse_targets(length, unit, inverse);
-  const Lanes product = inverse[0] * inverse[1] * inverse[2];
+  const Lanes product = inverse_targets(length, unit, inverse);
   const Vec3Lanes c12 = cross(e[1], e[2]);
   t.gx = product * c12.x;
   t.gy = product * c12.y;
@@ -111,17 +82,39 @@ SCULPT_INLINE void leaf_tet(const Vec3Lanes (&e)[3], const Lanes& length0, bool 
   t.fixed = product * (length[1] * length[2]);
 }
 
-SCULPT_KERNEL double build_tets(StarBatch& batch, const Vec3Lanes* diagonal, bool unit) {
-  Vec3Lanes near[3];
+// Positions of one star node in eight hexes, relative to the moving node and scaled.
+SCULPT_INLINE Vec3Lanes positions(const Vec3* const (&p)[8], const Vec3& here, const Vec3& scale) {
+  const Lanes x{p[0]->x, p[1]->x, p[2]->x, p[3]->x, p[4]->x, p[5]->x, p[6]->x, p[7]->x};
+  const Lanes y{p[0]->y, p[1]->y, p[2]->y, p[3]->y, p[4]->y, p[5]->y, p[6]->y, p[7]->y};
+  const Lanes z{p[0]->z, p[1]->z, p[2]->z, p[3]->z, p[4]->z, p[5]->z, p[6]->z, p[7]->z};
+  return {(x - here.x) * scale.x, (y - here.y) * scale.y, (z - here.z) * scale.z};
+}
+
+// Fills a batch from up to eight hexes and returns the shortest edge at the moving node.
+SCULPT_KERNEL double build_batch(StarBatch& batch, const Hex* hexes, const Vec3* position, const std::int32_t* items,
+                                 std::size_t count, const Vec3& here, const Vec3& scale, bool unit) {
+  Vec3Lanes node[6];
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Vec3* p[8];
+    for (std::size_t l = 0; l < 8; ++l) {
+      const std::int32_t item = items[l < count ? l : 0];  // the padding repeats the first hex
+      p[l] = position + hexes[item / 8][static_cast<std::size_t>(kStarNodes[static_cast<std::size_t>(item % 8)][k])];
+    }
+    node[k] = positions(p, here, scale);
+  }
+  for (std::size_t l = 0; l < 8; ++l) batch.used[l] = l < count ? 1.0 : 0.0;
+  const Vec3Lanes near[3] = {node[0], node[1], node[2]};
   Lanes length[3];
   for (int k = 0; k < 3; ++k) {
-    near[k] = {batch.neighbour[k][0], batch.neighbour[k][1], batch.neighbour[k][2]};
+    batch.neighbour[k][0] = near[k].x;
+    batch.neighbour[k][1] = near[k].y;
+    batch.neighbour[k][2] = near[k].z;
     length[k] = root(dot(near[k], near[k]));
   }
   apex_tet(near, length, unit, batch.tet[0]);
   const Vec3Lanes zero{splat(0), splat(0), splat(0)};
   for (int k = 0; k < 3; ++k) {
-    const Vec3Lanes e[3] = {zero - near[k], diagonal[(k + 2) % 3] - near[k], diagonal[k] - near[k]};
+    const Vec3Lanes e[3] = {zero - near[k], node[3 + (k + 2) % 3] - near[k], node[3 + k] - near[k]};
     leaf_tet(e, length[k], unit, batch.tet[k + 1]);
   }
   return least(smallest(smallest(length[0], length[1]), length[2]));
@@ -142,8 +135,8 @@ SCULPT_KERNEL void add_derivatives(const StarBatch& b, int r, double eps, Lanes*
   const Lanes one = splat(1), zero = splat(0);
   for (const TetLanes& t : b.tet) {
     const Lanes n = t.s2, big = root(eps2 + t.d0 * t.d0), chi = positive_part(t.d0, big, eps2);
-    const Lanes sr = to_power(kThirdRoot27 * n * root(n) / chi, r) * b.used;
     const Lanes inverse_big = 1.0 / (big + kTiny), inverse_chi = 1.0 / chi, inverse_n = 1.0 / n;
+    const Lanes sr = to_power(kThirdRoot27 * n * root(n) * inverse_chi, r) * b.used;
     const Lanes c1 = (0.5 + 0.5 * t.d0 * inverse_big) * inverse_chi;
     const Lanes c2 = 0.5 * eps2 * inverse_big * inverse_big * inverse_big * inverse_chi;
     const Vec3Lanes gn{-2.0 * t.sx, -2.0 * t.sy, -2.0 * t.sz};
@@ -201,31 +194,10 @@ void Star::gather(const std::vector<Hex>& hexes, const std::vector<Vec3>& positi
   if (batches_.size() < used_) batches_.resize(used_);
   const Vec3 here = position[static_cast<std::size_t>(node)];
   shortest_edge_ = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < used_; ++b) {
-    StarBatch& batch = batches_[b];
-    Vec3Lanes diagonal[3];
-    for (std::size_t l = 0; l < 8; ++l) {
-      const bool used = 8 * b + l < items.size();
-      const std::int32_t item = items[used ? 8 * b + l : 8 * b];  // the padding repeats the first hex
-      const Hex& hex = hexes[static_cast<std::size_t>(item / 8)];
-      const auto& slots = kStarNodes[static_cast<std::size_t>(item % 8)];
-      for (std::size_t k = 0; k < 6; ++k) {
-        const Vec3& p = position[static_cast<std::size_t>(hex[static_cast<std::size_t>(slots[k])])];
-        const double x = (p.x - here.x) * scale.x, y = (p.y - here.y) * scale.y, z = (p.z - here.z) * scale.z;
-        if (k < 3) {
-          batch.neighbour[k][0][l] = x;
-          batch.neighbour[k][1][l] = y;
-          batch.neighbour[k][2][l] = z;
-        } else {
-          diagonal[k - 3].x[l] = x;
-          diagonal[k - 3].y[l] = y;
-          diagonal[k - 3].z[l] = z;
-        }
-      }
-      batch.used[l] = used ? 1.0 : 0.0;
-    }
-    shortest_edge_ = std::min(shortest_edge_, build_tets(batch, diagonal, target == Target::kUnit));
-  }
+  for (std::size_t b = 0; b < used_; ++b)
+    shortest_edge_ = std::min(shortest_edge_, build_batch(batches_[b], hexes.data(), position.data(), items.data() + 8 * b,
+                                                          std::min<std::size_t>(8, items.size() - 8 * b), here, scale,
+                                                          target == Target::kUnit));
 }
 
 Derivatives Star::derivatives(int r, double eps) const {

@@ -8,10 +8,9 @@
 #include "sculpt/base/types.hpp"
 #include "sculpt/base/vec3.hpp"
 #include "sculpt/geom/hex.hpp"
+#include "smooth/lanes.hpp"
 
 namespace sculpt {
-
-using Lanes = double __attribute__((vector_size(64), aligned(64)));
 
 // A corner tetrahedron per lane, as a function of the displacement y of the moving node: determinant D = d0 + G.y
 // (edges divided by their target lengths) and squared norm n = W y.y - 2 S.y + S2.

@@ -1,0 +1,19 @@
+#pragma once
+// Scaled Jacobians of many hexes at once. Pure.
+#include <array>
+#include <span>
+#include <vector>
+
+#include "sculpt/base/types.hpp"
+#include "sculpt/base/vec3.hpp"
+#include "sculpt/geom/hex.hpp"
+
+namespace sculpt {
+
+struct HexQuality {
+  std::array<double, 8> scaled_jacobian, shortest_edge;
+};
+// Of up to eight hexes; entries beyond `which.size()` are meaningless. Agrees with scaled_jacobian() up to rounding.
+[[nodiscard]] HexQuality quality_of(const std::vector<Hex>& hexes, const std::vector<Vec3>& position, std::span<const LocalId> which);
+
+}  // namespace sculpt

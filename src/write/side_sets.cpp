@@ -1,0 +1,210 @@
+#include "sculpt/write/side_sets.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <compare>
+
+#include "sculpt/deck/deck.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr GlobalId kHexFactor = 8;  // ids of the hexes that pillow() makes of hex h: 8 h + 0 .. 6
+constexpr int kTop = 5;             // the face of a buffer hex that lies where the old face was
+constexpr std::int64_t kGridBoundary = 1, kExterior = 2, kInterfaces = 3;  // sets of `fixed`
+
+std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
+
+// Where a surface is met first.
+struct Place {
+  std::int64_t axis, plane;
+  GlobalId cell;  // the one before the plane, or the one at the lower side of the box
+  auto operator<=>(const Place&) const = default;
+};
+
+class Planner {
+ public:
+  Planner(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours, const Interfaces& faces, const Brep& brep,
+          std::span<const std::uint8_t> drop, const std::array<GlobalId, 3>& grid)
+      : comm_(comm), cells_(cells), neighbours_(neighbours), faces_(faces), brep_(brep), drop_(drop), grid_(grid) {}
+
+  SidePlan fixed() {
+    add_inner([](const InterfaceQuad&, std::size_t, bool exterior) { return exterior ? kExterior : kInterfaces; });
+    for (const BoxFaces::Face& f : box_faces()) plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, kGridBoundary});
+    return std::move(plan_);
+  }
+
+  SidePlan rve() {
+    for (const BoxFaces::Face& f : box_faces()) plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, f.side + 1});
+    return std::move(plan_);
+  }
+
+  // Surfaces between cells are numbered as in the brep, those on the box behind them, and all anew in the end.
+  SidePlan variable() {
+    const BoxFaces box = trace_box_faces(comm_, cells_, neighbours_, brep_.volume);
+    add_inner([&](const InterfaceQuad& q, std::size_t i, bool) {
+      const std::int64_t surface = brep_.surface[i];
+      // Seen from either cell a face is met at the cell before its plane.
+      const bool upward = kFaceSign[static_cast<std::size_t>(q.face)] > 0;
+      note(surface, place(q.cell[0], q.face, cells_.hex_id[at(q.cell[upward ? 0 : 1])]));
+      return surface;
+    });
+    for (std::size_t i = 0; i < box.faces.size(); ++i) {
+      const auto& [cell, face, side] = box.faces[i];
+      if (!meshed_here(cell)) continue;
+      const std::int64_t surface = brep_.surfaces + box.surface[i];
+      note(surface, place(cell, face, cells_.hex_id[at(cell)]));
+      plan_.box.push_back({cells_.hex_id[at(cell)], side, surface});
+    }
+    renumber();
+    return std::move(plan_);
+  }
+
+ private:
+  struct First {
+    std::int64_t surface;
+    Place place;
+    auto operator<=>(const First&) const = default;
+  };
+
+  [[nodiscard]] bool meshed_here(LocalId cell) const { return cells_.layer[at(cell)] == 0 && !drop_[at(cell)]; }
+
+  // set_of(quad, its index, whether it is exterior), for quads whose listed cell is owned.
+  template <class SetOf>
+  void add_inner(SetOf&& set_of) {
+    for (std::size_t i = 0; i < faces_.quads.size(); ++i) {
+      const InterfaceQuad& q = faces_.quads[i];
+      const bool first_out = drop_[at(q.cell[0])] != 0, second_out = drop_[at(q.cell[1])] != 0;
+      if (first_out && second_out) continue;
+      const bool by_second = first_out || (!second_out && cells_.material[at(q.cell[1])] > cells_.material[at(q.cell[0])]);
+      const LocalId cell = q.cell[by_second];
+      if (cells_.layer[at(cell)] != 0) continue;
+      plan_.inner.push_back({cells_.hex_id[at(cell)], by_second ? face_of_second(q) : q.face, set_of(q, i, first_out || second_out)});
+    }
+  }
+  [[nodiscard]] int face_of_second(const InterfaceQuad& q) const {
+    const auto& back = neighbours_[at(q.cell[1])];
+    return static_cast<int>(std::find(back.begin(), back.end(), q.cell[0]) - back.begin());
+  }
+
+  [[nodiscard]] std::vector<BoxFaces::Face> box_faces() const {
+    std::vector<BoxFaces::Face> out;
+    for (LocalId c = 0; c < cells_.size(); ++c) {
+      if (!meshed_here(c)) continue;
+      for (int f = 0; f < 6; ++f)
+        if (neighbours_[at(c)][static_cast<std::size_t>(f)] == kNone)
+          out.push_back({c, f, std::countr_zero(face_sides(cells_, c, f))});
+    }
+    return out;
+  }
+
+  [[nodiscard]] Place place(LocalId cell, int face, GlobalId before) const {
+    const auto axis = static_cast<std::size_t>(kFaceAxis[static_cast<std::size_t>(face)]);
+    if (grid_[0] == 0) return {kFaceAxis[static_cast<std::size_t>(face)], 0, before};
+    GlobalId stride = 1;
+    for (std::size_t d = 0; d < axis; ++d) stride *= grid_[d];
+    const GlobalId index = cells_.hex_id[at(cell)] / stride % grid_[axis];
+    return {static_cast<std::int64_t>(axis), index + (kFaceSign[static_cast<std::size_t>(face)] > 0 ? 1 : 0), before};
+  }
+
+  void note(std::int64_t surface, const Place& where) { firsts_.push_back({surface, where}); }
+
+  // Ids 1.. in the order of the first places of the surfaces.
+  void renumber() {
+    keep_least();
+    firsts_ = comm_.concatenate(firsts_);
+    keep_least();
+    std::vector<First> order = firsts_;
+    std::sort(order.begin(), order.end(), [](const First& a, const First& b) { return a.place < b.place; });
+    std::vector<std::int64_t> id(static_cast<std::size_t>(firsts_.empty() ? 0 : firsts_.back().surface + 1), 0);
+    for (std::size_t i = 0; i < order.size(); ++i) id[static_cast<std::size_t>(order[i].surface)] = static_cast<std::int64_t>(i) + 1;
+    for (auto* items : {&plan_.inner, &plan_.box})
+      for (SidePlan::Item& item : *items) item.set = id[static_cast<std::size_t>(item.set)];
+  }
+  void keep_least() {
+    std::sort(firsts_.begin(), firsts_.end());
+    firsts_.erase(std::unique(firsts_.begin(), firsts_.end(), [](const First& a, const First& b) { return a.surface == b.surface; }),
+                  firsts_.end());
+  }
+
+  const Comm& comm_;
+  const HexMesh& cells_;
+  const FaceNeighbours& neighbours_;
+  const Interfaces& faces_;
+  const Brep& brep_;
+  std::span<const std::uint8_t> drop_;
+  std::array<GlobalId, 3> grid_;
+  SidePlan plan_;
+  std::vector<First> firsts_;
+};
+
+class Finder {
+ public:
+  Finder(const HexMesh& mesh, int stages) : mesh_(mesh), stages_(stages) {
+    for (int s = 0; s < stages; ++s) family_ *= kHexFactor;
+  }
+
+  // The hex in which the face of a cell ended up: at each stage the buffer hex on the face, or else the hex itself.
+  void add_inner(const SidePlan::Item& item) {
+    LocalId hex = kNone;
+    int face = item.at;
+    check(descend(item.cell, face, stages_, hex), "a hex of a side set is missing");
+    out_.push_back({item.set, hex, face});
+  }
+
+  // Faces of all hexes of a cell on one side of the box.
+  void add_box(const SidePlan::Item& item) {
+    const auto begin = std::lower_bound(mesh_.hex_id.begin(), mesh_.hex_id.end(), family_ * item.cell);
+    for (auto it = begin; it != mesh_.hex_id.end() && *it < family_ * (item.cell + 1); ++it)
+      for (int f = 0; f < 6; ++f) {
+        const auto hex = static_cast<LocalId>(it - mesh_.hex_id.begin());
+        if (face_sides(mesh_, hex, f) >> item.at & 1) out_.push_back({item.set, hex, f});
+      }
+  }
+
+  std::vector<SideFace> done() { return std::move(out_); }
+
+ private:
+  bool descend(GlobalId id, int& face, int stages, LocalId& hex) const {
+    if (stages == 0) {
+      const auto it = std::lower_bound(mesh_.hex_id.begin(), mesh_.hex_id.end(), id);
+      if (it == mesh_.hex_id.end() || *it != id) return false;
+      hex = static_cast<LocalId>(it - mesh_.hex_id.begin());
+      return true;
+    }
+    int top = kTop;
+    if (descend(kHexFactor * id + face + 1, top, stages - 1, hex)) {
+      face = top;
+      return true;
+    }
+    return descend(kHexFactor * id, face, stages - 1, hex);
+  }
+
+  const HexMesh& mesh_;
+  int stages_;
+  GlobalId family_ = 1;
+  std::vector<SideFace> out_;
+};
+
+}  // namespace
+
+SidePlan plan_side_sets(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours, const Interfaces& faces,
+                        const Brep& brep, std::span<const std::uint8_t> drop, const std::array<GlobalId, 3>& grid,
+                        int gen_sidesets) {
+  Planner planner(comm, cells, neighbours, faces, brep, drop, grid);
+  switch (gen_sidesets) {
+    case kSidesetsFixed: return planner.fixed();
+    case kSidesetsVariable: return planner.variable();
+    case kSidesetsRve: return planner.rve();
+    default: return {};
+  }
+}
+
+std::vector<SideFace> side_faces(const SidePlan& plan, const HexMesh& mesh, int stages) {
+  Finder finder(mesh, stages);
+  for (const SidePlan::Item& item : plan.inner) finder.add_inner(item);
+  for (const SidePlan::Item& item : plan.box) finder.add_box(item);
+  return finder.done();
+}
+
+}  // namespace sculpt

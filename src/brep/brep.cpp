@@ -11,8 +11,8 @@ namespace {
 
 std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
 
-// Cells of a full lattice. A cell joins the run of its left neighbour without a search; towards the rows before it, it
-// joins only where the two runs begin to touch.
+// Cells of a full lattice. A cell joins the run of its left neighbour without a search; towards the rows
+// before it, it joins only where the two runs begin to touch.
 DisjointSets join_lattice(const HexMesh& cells) {
   const auto [nx, ny, nz] = cells.lattice;
   const std::int32_t* const material = cells.material.data();
@@ -35,13 +35,16 @@ DisjointSets join_any(const HexMesh& cells, const FaceNeighbours& neighbours) {
   DisjointSets sets(cells.hexes.size());
   for (LocalId c = 0; c < cells.size(); ++c)
     for (const LocalId other : neighbours[at(c)])
-      if (other != kNone && other < c && cells.material[at(other)] == cells.material[at(c)]) sets.join(c, other);
+      if (other != kNone && other < c && cells.material[at(other)] == cells.material[at(c)])
+        sets.join(c, other);
   return sets;
 }
 
-std::int64_t find_volumes(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours, std::vector<std::int32_t>& volume) {
-  Components parts = connected_components(comm, cells.lattice[0] > 0 ? join_lattice(cells) : join_any(cells, neighbours),
-                                          cells.hex_id, cells.hex_exchange);
+std::int64_t find_volumes(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
+                          std::vector<std::int32_t>& volume) {
+  Components parts =
+      connected_components(comm, cells.lattice[0] > 0 ? join_lattice(cells) : join_any(cells, neighbours),
+                           cells.hex_id, cells.hex_exchange);
   std::vector<std::int32_t> material;
   material.reserve(parts.first.size());
   for (const LocalId c : parts.first) material.push_back(cells.material[at(c)]);
@@ -50,8 +53,9 @@ std::int64_t find_volumes(const Comm& comm, const HexMesh& cells, const FaceNeig
   return count;
 }
 
-// Interface nodes of quads with a cell that is owned or in the first ghost layer: there all quads are known and all
-// classes right. All owned nodes are among them, and so are both ends of every edge of the quads of owned cells.
+// Interface nodes of quads with a cell that is owned or in the first ghost layer: there all quads are known
+// and all classes right. All owned nodes are among them, and so are both ends of every edge of the quads of
+// owned cells.
 std::vector<std::uint8_t> settled_nodes(const HexMesh& cells, const Interfaces& faces) {
   std::vector<std::uint8_t> settled(faces.nodes.size(), 0);
   for (const InterfaceQuad& q : faces.quads)
@@ -69,7 +73,8 @@ DisjointSets join_quads(const Interfaces& faces, const std::vector<std::uint8_t>
     ends.clear();
     for (const LocalId item : faces.node_quads[i])
       for (const int turn : {1, 3}) {
-        const LocalId end = faces.index_of[at(faces.quads[at(item / 4)].node[static_cast<std::size_t>((item + turn) % 4)])];
+        const LocalId end =
+            faces.index_of[at(faces.quads[at(item / 4)].node[static_cast<std::size_t>((item + turn) % 4)])];
         if (end > static_cast<LocalId>(i) && settled[at(end)]) ends.emplace_back(end, item / 4);
       }
     std::sort(ends.begin(), ends.end());
@@ -83,8 +88,8 @@ DisjointSets join_quads(const Interfaces& faces, const std::vector<std::uint8_t>
   return sets;
 }
 
-std::int64_t find_surfaces(const Comm& comm, const HexMesh& cells, const Interfaces& faces, const std::vector<std::uint8_t>& settled,
-                           std::vector<std::int32_t>& surface) {
+std::int64_t find_surfaces(const Comm& comm, const HexMesh& cells, const Interfaces& faces,
+                           const std::vector<std::uint8_t>& settled, std::vector<std::int32_t>& surface) {
   std::vector<GlobalId> ids;
   std::vector<std::int32_t> owner;
   ids.reserve(faces.quads.size());
@@ -93,14 +98,16 @@ std::int64_t find_surfaces(const Comm& comm, const HexMesh& cells, const Interfa
     ids.push_back(8 * cells.hex_id[at(q.cell[0])] + q.face);
     owner.push_back(cells.hex_owner[at(q.cell[0])]);
   }
-  Components parts = connected_components(comm, join_quads(faces, settled), ids, GhostExchange(comm, ids, owner));
+  Components parts =
+      connected_components(comm, join_quads(faces, settled), ids, GhostExchange(comm, ids, owner));
   const std::int64_t count = number_components(comm, parts, ids);
   surface = std::move(parts.of);
   return count;
 }
 
 // Chains of kCurve nodes, and single edges between two vertices.
-void count_curves(const Comm& comm, const HexMesh& cells, const Interfaces& faces, const std::vector<std::uint8_t>& settled, Brep& brep) {
+void count_curves(const Comm& comm, const HexMesh& cells, const Interfaces& faces,
+                  const std::vector<std::uint8_t>& settled, Brep& brep) {
   std::vector<GlobalId> ids;
   std::vector<std::int32_t> owner;
   DisjointSets sets(faces.nodes.size());
@@ -130,7 +137,8 @@ void count_curves(const Comm& comm, const HexMesh& cells, const Interfaces& face
 
 }  // namespace
 
-Brep build_brep(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours, const Interfaces& faces) {
+Brep build_brep(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
+                const Interfaces& faces) {
   Brep brep;
   brep.volumes = find_volumes(comm, cells, neighbours, brep.volume);
   const std::vector<std::uint8_t> settled = settled_nodes(cells, faces);

@@ -7,8 +7,9 @@
 namespace sculpt {
 namespace {
 
-constexpr double kLeastDominance = 0.05;  // of the assigned material, so that a root exists
+constexpr double kLeastDominance = 1e-3;  // of the assigned material, so that a root exists
 constexpr double kNearest = 0.05;         // of a crossing to a cell centre, as part of the distance
+constexpr double kPure = 1e-9;            // a cell with less of a material has none of it
 
 std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
 
@@ -26,7 +27,8 @@ struct GradientTable {
   }
 };
 
-GradientTable gradients(const HexMesh& mesh, const Interfaces& faces, const Fractions& fractions, const NodeHexes& around) {
+GradientTable gradients(const HexMesh& mesh, const Interfaces& faces, const Fractions& fractions,
+                        const NodeHexes& around) {
   GradientTable table;
   table.first.assign(mesh.hexes.size(), -1);
   table.count.assign(mesh.hexes.size(), 0);
@@ -44,6 +46,37 @@ GradientTable gradients(const HexMesh& mesh, const Interfaces& faces, const Frac
   return table;
 }
 
+// A cell beside an interface: share of material a in what it holds of a and b, and the direction from a to b,
+// both in units of cells.
+struct Side {
+  double share;
+  Vec3 normal;
+  [[nodiscard]] bool mixed() const { return share > kPure && share < 1 - kPure; }
+};
+
+// Where the interface crosses the step between two cell centres, in [0,1]. Cells that are cut by the
+// interface know where by their volume: the plane of their gradient that cuts off their share. Between pure
+// cells only the gradients tell anything.
+double crossing_position(const Side& s0, const Side& s1, const Vec3& step, double g0, double g1, double m0,
+                         double m1) {
+  constexpr double kGrazing = 0.1;
+  if (s0.mixed() && s1.mixed()) {
+    const double ahead = plane_offset(s0.share, s0.normal), behind = -plane_offset(s1.share, s1.normal);
+    if (ahead + behind > kPure && ahead >= 0 && behind >= 0) return ahead / (ahead + behind);
+  } else if (s0.mixed() && dot(s0.normal, step) > kGrazing) {
+    return plane_offset(s0.share, s0.normal) / dot(s0.normal, step);
+  } else if (s1.mixed() && dot(s1.normal, step) > kGrazing) {
+    return 1 + plane_offset(s1.share, s1.normal) / dot(s1.normal, step);
+  }
+  return hermite_root(g0, g1, m0, m1);
+}
+
+Side side_of(const Fractions& f, LocalId cell, std::int32_t a, std::int32_t b, const Vec3& slope,
+             const Vec3& cell_size) {
+  const double va = fraction_of(f, cell, a), vb = fraction_of(f, cell, b);
+  return {va + vb > 0 ? va / (va + vb) : 0.5, unit(-scaled(slope, cell_size))};
+}
+
 Vec3 centre(const HexMesh& mesh, LocalId cell) {
   Vec3 sum;
   for (const LocalId n : mesh.hexes[at(cell)]) sum += mesh.position[at(n)];
@@ -51,6 +84,28 @@ Vec3 centre(const HexMesh& mesh, LocalId cell) {
 }
 
 }  // namespace
+
+double plane_offset(double share, const Vec3& normal) {
+  constexpr double kLeastSlope = 1e-4;  // keeps the cubic away from 0/0; the offset changes by less than this
+  const Vec3 m{std::max(std::fabs(normal.x), kLeastSlope), std::max(std::fabs(normal.y), kLeastSlope),
+               std::max(std::fabs(normal.z), kLeastSlope)};
+  const auto cube = [](double x) { return x > 0 ? x * x * x : 0.0; };
+  const auto below = [&](double a) {  // volume of the unit cube where m.x < a
+    return (cube(a) - cube(a - m.x) - cube(a - m.y) - cube(a - m.z) + cube(a - m.x - m.y) +
+            cube(a - m.x - m.z) + cube(a - m.y - m.z)) /
+           (6 * m.x * m.y * m.z);
+  };
+  const double all = m.x + m.y + m.z;
+  // By symmetry only the smaller part is measured, where the cubic loses no digits.
+  const double part = std::min(share, 1 - share);
+  double low = 0, high = 0.5 * all;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (below(middle) < part ? low : high) = middle;
+  }
+  const double offset = 0.5 * all - 0.5 * (low + high);
+  return share < 0.5 ? -offset : offset;
+}
 
 double hermite_root(double g0, double g1, double m0, double m1) {
   if (g0 == g1) return 0.5;
@@ -60,7 +115,8 @@ double hermite_root(double g0, double g1, double m0, double m1) {
   double low = 0, high = 1, t = g0 / (g0 - g1);
   for (int i = 0; i < 20; ++i) {
     const double t2 = t * t, t3 = t2 * t;
-    const double g = (2 * t3 - 3 * t2 + 1) * g0 + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * g1 + (t3 - t2) * m1;
+    const double g =
+        (2 * t3 - 3 * t2 + 1) * g0 + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * g1 + (t3 - t2) * m1;
     if (std::fabs(g) < 1e-12) break;
     (g > 0 ? low : high) = t;
     const double slope = (6 * t2 - 6 * t) * (g0 - g1) + (3 * t2 - 4 * t + 1) * m0 + (3 * t2 - 2 * t) * m1;
@@ -73,17 +129,24 @@ double hermite_root(double g0, double g1, double m0, double m1) {
 std::vector<Crossing> edge_crossings(const HexMesh& mesh, const Interfaces& faces, const Fractions& fractions,
                                      const NodeHexes& around) {
   const GradientTable table = gradients(mesh, faces, fractions, around);
+  const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
   std::vector<Crossing> crossings(faces.quads.size());
   for (std::size_t i = 0; i < faces.quads.size(); ++i) {
     const auto& [c0, c1] = faces.quads[i].cell;
     if (table.first[at(c0)] < 0 || table.first[at(c1)] < 0) continue;
     if (mesh.layer[at(c0)] > 1 || mesh.layer[at(c1)] > 1) continue;
     const std::int32_t a = mesh.material[at(c0)], b = mesh.material[at(c1)];
-    const double g0 = std::max(fraction_of(fractions, c0, a) - fraction_of(fractions, c0, b), kLeastDominance);
-    const double g1 = std::min(fraction_of(fractions, c1, a) - fraction_of(fractions, c1, b), -kLeastDominance);
+    const double g0 =
+        std::max(fraction_of(fractions, c0, a) - fraction_of(fractions, c0, b), kLeastDominance);
+    const double g1 =
+        std::min(fraction_of(fractions, c1, a) - fraction_of(fractions, c1, b), -kLeastDominance);
     const Vec3 slope0 = table.of(c0, a) - table.of(c0, b), slope1 = table.of(c1, a) - table.of(c1, b);
     const Vec3 from = centre(mesh, c0), step = centre(mesh, c1) - from;
-    const double t = std::clamp(hermite_root(g0, g1, dot(slope0, step), dot(slope1, step)), kNearest, 1 - kNearest);
+    const Side s0 = side_of(fractions, c0, a, b, slope0, mesh.cell_size),
+               s1 = side_of(fractions, c1, a, b, slope1, mesh.cell_size);
+    const double t = std::clamp(
+        crossing_position(s0, s1, scaled(step, in_cells), g0, g1, dot(slope0, step), dot(slope1, step)),
+        kNearest, 1 - kNearest);
     Vec3 normal = (t - 1) * slope0 - t * slope1;  // downhill in a - b: from a to b
     if (norm(normal) * norm(step) < 1e-6) normal = step;
     normal = unit(normal);

@@ -32,7 +32,8 @@ Vec3 solve(const Symmetric& a, const Vec3& b) {
 Vec3 GradientStencil::centre(LocalId cell) const {
   const Hex& hex = mesh_.hexes[static_cast<std::size_t>(cell)];
   if (mesh_.lattice[0] != 0)
-    return 0.5 * (mesh_.position[static_cast<std::size_t>(hex[0])] + mesh_.position[static_cast<std::size_t>(hex[6])]);
+    return 0.5 * (mesh_.position[static_cast<std::size_t>(hex[0])] +
+                  mesh_.position[static_cast<std::size_t>(hex[6])]);
   Vec3 sum;
   for (const LocalId n : hex) sum += mesh_.position[static_cast<std::size_t>(n)];
   return 0.125 * sum;
@@ -46,7 +47,8 @@ void GradientStencil::find_cells(LocalId cell) {
     const LocalId i = cell % nx, j = cell / nx % ny, k = cell / nx / ny;
     for (LocalId c = std::max(k - 1, 0); c <= std::min(k + 1, nz - 1); ++c)
       for (LocalId b = std::max(j - 1, 0); b <= std::min(j + 1, ny - 1); ++b)
-        for (LocalId a = std::max(i - 1, 0); a <= std::min(i + 1, nx - 1); ++a) cells_.push_back(a + nx * (b + ny * c));
+        for (LocalId a = std::max(i - 1, 0); a <= std::min(i + 1, nx - 1); ++a)
+          cells_.push_back(a + nx * (b + ny * c));
     return;
   }
   for (const LocalId n : mesh_.hexes[static_cast<std::size_t>(cell)])
@@ -62,12 +64,16 @@ void GradientStencil::gather(LocalId cell) {
   for (const LocalId c : cells_) neighbours_.push_back({c, centre(c) - here});
 }
 
-// Images of the cells that touch a side of the box which the cell touches as well, for every set of such sides.
+// Images of the cells that touch a side of the box which the cell touches as well, for every set of such
+// sides.
 void GradientStencil::mirror(LocalId cell) {
   const Hex& hex = mesh_.hexes[static_cast<std::size_t>(cell)];
   for (std::size_t d = 0; d < 3; ++d)
-    for (const std::uint8_t side : {static_cast<std::uint8_t>(1U << (2 * d)), static_cast<std::uint8_t>(2U << (2 * d))}) {
-      const auto on_side = [&](LocalId n) { return (mesh_.box_sides[static_cast<std::size_t>(n)] & side) != 0; };
+    for (const std::uint8_t side :
+         {static_cast<std::uint8_t>(1U << (2 * d)), static_cast<std::uint8_t>(2U << (2 * d))}) {
+      const auto on_side = [&](LocalId n) {
+        return (mesh_.box_sides[static_cast<std::size_t>(n)] & side) != 0;
+      };
       const auto touch = std::find_if(hex.begin(), hex.end(), on_side);
       if (touch == hex.end()) continue;
       const double plane = mesh_.position[static_cast<std::size_t>(*touch)][d] - centre(cell)[d];
@@ -75,7 +81,8 @@ void GradientStencil::mirror(LocalId cell) {
       for (std::size_t i = 0; i < before; ++i) {
         const Hex& other = mesh_.hexes[static_cast<std::size_t>(neighbours_[i].cell)];
         // An image across the opposite side of a one-cell layer is no neighbour.
-        if (std::none_of(other.begin(), other.end(), on_side) || neighbours_[i].offset[d] * plane < 0) continue;
+        if (std::none_of(other.begin(), other.end(), on_side) || neighbours_[i].offset[d] * plane < 0)
+          continue;
         Neighbour image = neighbours_[i];
         image.offset[d] = 2 * plane - image.offset[d];
         neighbours_.push_back(image);
@@ -87,14 +94,16 @@ const std::vector<GradientStencil::Entry>& GradientStencil::at(LocalId cell) {
   gather(cell);
   entries_.clear();
   for (const LocalId c : cells_) {
-    const auto first = fractions_.offset[static_cast<std::size_t>(c)], last = fractions_.offset[static_cast<std::size_t>(c) + 1];
+    const auto first = fractions_.offset[static_cast<std::size_t>(c)],
+               last = fractions_.offset[static_cast<std::size_t>(c) + 1];
     for (auto e = first; e < last; ++e) {
       const std::int32_t m = fractions_.material[static_cast<std::size_t>(e)];
       if (std::none_of(entries_.begin(), entries_.end(), [m](const Entry& x) { return x.material == m; }))
         entries_.push_back({m, {}});
     }
   }
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.material < b.material; });
+  std::sort(entries_.begin(), entries_.end(),
+            [](const Entry& a, const Entry& b) { return a.material < b.material; });
   mirror(cell);
 
   Symmetric matrix;
@@ -110,7 +119,8 @@ const std::vector<GradientStencil::Entry>& GradientStencil::at(LocalId cell) {
   for (Entry& entry : entries_) {
     const double here = fraction_of(fractions_, cell, entry.material);
     Vec3 side;
-    for (const Neighbour& n : neighbours_) side += (fraction_of(fractions_, n.cell, entry.material) - here) * n.offset;
+    for (const Neighbour& n : neighbours_)
+      side += (fraction_of(fractions_, n.cell, entry.material) - here) * n.offset;
     entry.gradient = solve(matrix, side);
   }
   return entries_;

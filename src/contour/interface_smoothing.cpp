@@ -5,18 +5,20 @@
 namespace sculpt {
 namespace {
 
-constexpr double kShrink = 0.5;                 // share of the way in the shrinking pass of a pair
-constexpr double kFarthest = 0.45;               // from the grid position, in cells per axis
-constexpr double kSliding = 0.1;                // weight of a tangential deviation
+constexpr double kShrink = 0.5;              // share of the way in the shrinking pass of a pair
+constexpr double kFarthest = 0.45;           // from the grid position, in cells per axis
+constexpr double kFarthestProjected = 0.75;  // the same where nodes are held on the interface
+constexpr double kSliding = 0.1;             // weight of a tangential deviation
 
 std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
 
 class Smoother {
  public:
-  Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule) : mesh_(mesh), faces_(faces), rule_(rule) {}
+  Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule)
+      : mesh_(mesh), faces_(faces), rule_(rule) {}
 
-  // One Jacobi pass: every node goes `factor` of the way to where it wants to be. Rules that keep the shape of a
-  // smooth curve by themselves have no part in the growing passes.
+  // One Jacobi pass: every node goes `factor` of the way to where it wants to be. Rules that keep the shape
+  // of a smooth curve by themselves have no part in the growing passes.
   void pass(double factor) {
     const int rank = mesh_.node_exchange.comm().rank();
     moved_.resize(faces_.nodes.size());
@@ -30,6 +32,17 @@ class Smoother {
     mesh_.node_exchange.copy_to_ghosts(mesh_.position);
   }
 
+  void project(const std::vector<Crossing>& crossings) {
+    const int rank = mesh_.node_exchange.comm().rank();
+    for (std::size_t i = 0; i < faces_.nodes.size(); ++i) {
+      const LocalId n = faces_.nodes[i];
+      if (mesh_.node_owner[at(n)] != rank) continue;
+      Vec3& p = mesh_.position[at(n)];
+      p += held_on_box(onto_interface(mesh_, faces_, crossings, i, p) - p, mesh_.box_sides[at(n)]);
+    }
+    mesh_.node_exchange.copy_to_ghosts(mesh_.position);
+  }
+
  private:
   [[nodiscard]] const Vec3& position(LocalId i) const { return mesh_.position[at(faces_.nodes[at(i)])]; }
   [[nodiscard]] std::uint8_t sides(LocalId i) const { return mesh_.box_sides[at(faces_.nodes[at(i)])]; }
@@ -37,7 +50,8 @@ class Smoother {
   [[nodiscard]] Vec3 towards_mean(std::size_t i, std::span<const LocalId> of) const {
     Vec3 sum;
     for (const LocalId n : of) sum += position(n);
-    return of.empty() ? Vec3{} : (1.0 / static_cast<double>(of.size())) * sum - position(static_cast<LocalId>(i));
+    return of.empty() ? Vec3{}
+                      : (1.0 / static_cast<double>(of.size())) * sum - position(static_cast<LocalId>(i));
   }
 
   [[nodiscard]] Vec3 wish(std::size_t i, bool growing) const {
@@ -64,23 +78,29 @@ class Smoother {
     const Vec3 x = position(i), a = position(ia), b = position(ib);
     const Vec3 middle = 0.5 * (a + b);
     switch (rule_) {
-      case CurveRule::kOff: return {};
-      case CurveRule::kLinear: return middle - x;
+      case CurveRule::kOff:
+        return {};
+      case CurveRule::kLinear:
+        return middle - x;
       case CurveRule::kHermite: {
         // Hermite midpoint with tangents of one edge length (the report's 2.25, signs by orientation a to b).
         const LocalId pa = beyond(i, ia), pb = beyond(i, ib);
-        const Vec3 da = pa == ia ? x - a : 0.5 * (x - position(pa)), db = pb == ib ? b - x : 0.5 * (position(pb) - x);
+        const Vec3 da = pa == ia ? x - a : 0.5 * (x - position(pa)),
+                   db = pb == ib ? b - x : 0.5 * (position(pb) - x);
         return middle + 0.25 * (da - db) - x;
       }
       case CurveRule::kAverageTangent: {
         // Mean of the two straight continuations over half the chord.
         const LocalId pa = beyond(i, ia), pb = beyond(i, ib);
         const double half = 0.5 * norm(b - a);
-        const Vec3 ta = pa == ia ? unit(x - a) : unit(a - position(pa)), tb = pb == ib ? unit(x - b) : unit(b - position(pb));
+        const Vec3 ta = pa == ia ? unit(x - a) : unit(a - position(pa)),
+                   tb = pb == ib ? unit(x - b) : unit(b - position(pb));
         return 0.5 * (a + half * ta + b + half * tb) - x;
       }
-      case CurveRule::kCircle: return middle_of_arc(a, x, b) - x;
-      case CurveRule::kNeighbourSurfaceNormal: return towards_surfaces(node, middle - x);
+      case CurveRule::kCircle:
+        return middle_of_arc(a, x, b) - x;
+      case CurveRule::kNeighbourSurfaceNormal:
+        return towards_surfaces(node, middle - x);
       case CurveRule::kVfrac: {
         const Vec3 along = unit(b - a);
         return dot(middle - x, along) * along;
@@ -117,7 +137,8 @@ class Smoother {
     Vec3 sum;
     for (const LocalId item : faces_.node_quads[at(i)]) {
       const auto& n = faces_.quads[at(item / 4)].node;
-      sum += unit(cross(mesh_.position[at(n[2])] - mesh_.position[at(n[0])], mesh_.position[at(n[3])] - mesh_.position[at(n[1])]));
+      sum += unit(cross(mesh_.position[at(n[2])] - mesh_.position[at(n[0])],
+                        mesh_.position[at(n[3])] - mesh_.position[at(n[1])]));
     }
     return unit(sum);
   }
@@ -130,19 +151,24 @@ class Smoother {
 
 }  // namespace
 
-void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<Vec3>& grid_position,
-                      const InterfaceSmoothing& options) {
+void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
+                      const std::vector<Vec3>& grid_position, const InterfaceSmoothing& options) {
   Smoother smoother(mesh, faces, options.curve);
   for (int pair = 0; pair < options.pairs; ++pair) {
     smoother.pass(kShrink);
-    smoother.pass(options.grow);
+    if (options.project)
+      smoother.project(crossings);
+    else
+      smoother.pass(options.grow);
   }
   const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
+  const double farthest = options.project ? kFarthestProjected : kFarthest;
   for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
     Vec3& p = mesh.position[at(faces.nodes[i])];
     const Vec3 move = p - grid_position[i];
     const double most = largest(scaled(move, in_cells));
-    if (most > kFarthest) p = grid_position[i] + held_on_box((kFarthest / most) * move, mesh.box_sides[at(faces.nodes[i])]);
+    if (most > farthest)
+      p = grid_position[i] + held_on_box((farthest / most) * move, mesh.box_sides[at(faces.nodes[i])]);
   }
 }
 
@@ -166,7 +192,7 @@ std::vector<Weight> deviation_weights(const HexMesh& mesh, const Interfaces& fac
       v = unit(mesh.position[at(faces.nodes[at(faces.curve_neighbours[i][1])])] -
                mesh.position[at(faces.nodes[at(faces.curve_neighbours[i][0])])]);
     }
-    weights[i] = {all + along * v.x * v.x, along * v.x * v.y,       along * v.x * v.z,
+    weights[i] = {all + along * v.x * v.x, along * v.x * v.y, along * v.x * v.z,
                   all + along * v.y * v.y, along * v.y * v.z, all + along * v.z * v.z};
   }
   return weights;

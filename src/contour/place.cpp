@@ -6,8 +6,8 @@
 namespace sculpt {
 namespace {
 
-constexpr double kFarthest = 0.45;   // of a cell, per axis
-constexpr double kParallel = 0.2;    // sine of the angle below which two planes have no useful intersection
+constexpr double kFarthest = 0.7;  // of a cell, per axis: enough to reach any plane between the cell centres
+constexpr double kParallel = 0.2;  // sine of the angle below which two planes have no useful intersection
 
 std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
 
@@ -18,17 +18,16 @@ struct Plane {
   int count = 0;
 };
 
-// Mean of the projections to the planes of the single crossings; crossings whose normal runs along their line weigh more.
-Vec3 on_surface(const Vec3& p, const HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
+// Mean of the projections to the planes of the single crossings; near crossings weigh more.
+Vec3 on_surface(const Vec3& p, const Vec3& in_cells, const std::vector<Crossing>& crossings,
                 std::span<const LocalId> items) {
+  constexpr double kSoftness = 0.25;  // square of a distance in cells
   Vec3 sum;
   double weight = 0;
   for (const LocalId item : items) {
-    const InterfaceQuad& q = faces.quads[at(item / 4)];
     const Crossing& x = crossings[at(item / 4)];
-    const Vec3 along = unit(cross(mesh.position[at(q.node[2])] - mesh.position[at(q.node[0])],
-                                  mesh.position[at(q.node[3])] - mesh.position[at(q.node[1])]));
-    const double w = std::fabs(dot(along, x.normal)) + 1e-3;
+    const Vec3 off = scaled(p - x.point, in_cells);
+    const double w = 1 / (kSoftness + dot(off, off));
     sum += w * (p - dot(p - x.point, x.normal) * x.normal);
     weight += w;
   }
@@ -40,13 +39,15 @@ void merge_planes(const HexMesh& mesh, const Interfaces& faces, const std::vecto
   planes.clear();
   for (const LocalId item : items) {
     const auto pair = Interfaces::materials(mesh, faces.quads[at(item / 4)]);
-    auto plane = std::find_if(planes.begin(), planes.end(), [&](const Plane& x) { return x.materials == pair; });
+    auto plane =
+        std::find_if(planes.begin(), planes.end(), [&](const Plane& x) { return x.materials == pair; });
     if (plane == planes.end()) plane = planes.insert(planes.end(), {pair, {}, {}, 0});
     plane->point += crossings[at(item / 4)].point;
     plane->normal += crossings[at(item / 4)].normal;
     ++plane->count;
   }
-  std::sort(planes.begin(), planes.end(), [](const Plane& a, const Plane& b) { return a.materials < b.materials; });
+  std::sort(planes.begin(), planes.end(),
+            [](const Plane& a, const Plane& b) { return a.materials < b.materials; });
   for (Plane& plane : planes) {
     plane.point = (1.0 / plane.count) * plane.point;
     plane.normal = unit(plane.normal);
@@ -62,7 +63,8 @@ bool on_intersections(const Vec3& p, const std::vector<Plane>& planes, Vec3& res
       const double sine = norm(cross(planes[a].normal, planes[b].normal));
       if (sine < kParallel) continue;
       const double cosine = dot(planes[a].normal, planes[b].normal), det = 1 - cosine * cosine;
-      const double ra = dot(p - planes[a].point, planes[a].normal), rb = dot(p - planes[b].point, planes[b].normal);
+      const double ra = dot(p - planes[a].point, planes[a].normal),
+                   rb = dot(p - planes[b].point, planes[b].normal);
       const double la = (ra - cosine * rb) / det, lb = (rb - cosine * ra) / det;
       sum += sine * (p - la * planes[a].normal - lb * planes[b].normal);
       weight += sine;
@@ -73,25 +75,29 @@ bool on_intersections(const Vec3& p, const std::vector<Plane>& planes, Vec3& res
 
 }  // namespace
 
+Vec3 onto_interface(const HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
+                    std::size_t i, const Vec3& p) {
+  const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
+  const auto items = faces.node_quads[i];
+  std::vector<Plane> planes;
+  merge_planes(mesh, faces, crossings, items, planes);
+  Vec3 target;
+  if (planes.size() > 1 && on_intersections(p, planes, target)) return target;
+  return on_surface(p, in_cells, crossings, items);
+}
+
 void place_nodes(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings) {
   const int rank = mesh.node_exchange.comm().rank();
-  const Vec3 unit_of{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
-  std::vector<Vec3> placed(faces.nodes.size());
-  std::vector<Plane> planes;
+  const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
   for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
     const LocalId n = faces.nodes[i];
-    const Vec3 p = placed[i] = mesh.position[at(n)];
     if (mesh.node_owner[at(n)] != rank) continue;
-    const auto items = faces.node_quads[i];
-    merge_planes(mesh, faces, crossings, items, planes);
-    Vec3 target;
-    if (planes.size() == 1 || !on_intersections(p, planes, target)) target = on_surface(p, mesh, faces, crossings, items);
-    Vec3 move = held_on_box(target - p, mesh.box_sides[at(n)]);
-    const double most = largest(scaled(move, unit_of));
+    Vec3& p = mesh.position[at(n)];
+    Vec3 move = held_on_box(onto_interface(mesh, faces, crossings, i, p) - p, mesh.box_sides[at(n)]);
+    const double most = largest(scaled(move, in_cells));
     if (most > kFarthest) move = (kFarthest / most) * move;
-    placed[i] = p + move;
+    p += move;
   }
-  for (std::size_t i = 0; i < faces.nodes.size(); ++i) mesh.position[at(faces.nodes[i])] = placed[i];
   mesh.node_exchange.copy_to_ghosts(mesh.position);
 }
 

@@ -1,6 +1,8 @@
 // The deck: BEGIN SCULPT, one option per line, END SCULPT.
 #include <fmt/core.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -131,7 +133,7 @@ std::string read_deck_file(const std::string& file_name) {
   if (std::filesystem::is_directory(file_name, ignored))
     throw Error(fmt::format("deck '{}': this is a folder, not a file", file_name));
   std::ifstream file(file_name, std::ios::binary);
-  if (!file) throw Error(fmt::format("deck '{}': cannot open the file", file_name));
+  if (!file) throw Error(fmt::format("deck '{}': cannot open the file: {}", file_name, std::strerror(errno)));
   try {
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   } catch (const std::ios_base::failure&) {

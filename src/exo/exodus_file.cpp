@@ -11,6 +11,7 @@
 
 #include "exo/netcdf_extent.hpp"
 #include "sculpt/base/error.hpp"
+#include "sculpt/exo/write_rank_file.hpp"
 
 namespace sculpt {
 namespace {
@@ -110,8 +111,8 @@ ExodusFile ExodusFile::create(const std::string& path, Format format) {
   int memory = kDoubles, disk = kDoubles;
   errno = 0;
   const int id = ex_create(path.c_str(), mode, &memory, &disk);
-  if (id < 0) throw Error(fmt::format("cannot create '{}': {}", path, cause(id)));
-  return {path, id};
+  if (id < 0) throw Error(fmt::format("cannot create '{}': {}", shown_name(path), cause(id)));
+  return {shown_name(path), id};
 }
 
 ExodusFile ExodusFile::open(const std::string& path) {
@@ -141,8 +142,6 @@ void ExodusFile::must(int status, const char* doing) const {
   errno = 0;
 }
 
-void ExodusFile::close_written() {
-  must(ex_close(std::exchange(id_, -1)), "closing the file");
-}
+void ExodusFile::close_written() { must(ex_close(std::exchange(id_, -1)), "closing the file"); }
 
 }  // namespace sculpt

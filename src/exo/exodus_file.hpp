@@ -26,7 +26,7 @@ class ExodusFile {
   ~ExodusFile();
 
   [[nodiscard]] int id() const { return id_; }
-  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] const std::string& path() const { return path_; }  // as messages show it
 
   // The integers that the void_int arguments of the next calls point to: 64 bits, or 32.
   void use_int64();

@@ -96,7 +96,7 @@ std::size_t longest_name(const std::string& path, const RankMesh& mesh) {
   for_each_entity(mesh, [&](const char* kind, std::int64_t id, const std::string& name) {
     if (name.size() > kLongestExodusName)
       throw Error(fmt::format("cannot write '{}': the name of {} {} has {} characters, Exodus allows {}",
-                              path, kind, id, name.size(), kLongestExodusName));
+                              shown_name(path), kind, id, name.size(), kLongestExodusName));
     longest = std::max(longest, name.size());
   });
   return longest;

@@ -6,11 +6,22 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <string_view>
 
 #include "exo/exodus_writer.hpp"
 #include "sculpt/base/error.hpp"
 
 namespace sculpt {
+namespace {
+
+constexpr std::string_view kTemporarySuffix = ".part";
+
+std::size_t begin_of_name(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? 0 : slash + 1;
+}
+
+}  // namespace
 
 std::string rank_file_name(const std::string& base, int ranks, int rank, const std::string& extension) {
   const std::string total = std::to_string(ranks);
@@ -18,9 +29,16 @@ std::string rank_file_name(const std::string& base, int ranks, int rank, const s
 }
 
 std::string temporary_name(const std::string& final_name) {
-  const std::size_t slash = final_name.rfind('/');
-  const std::size_t name = slash == std::string::npos ? 0 : slash + 1;
-  return final_name.substr(0, name) + "." + final_name.substr(name) + ".part";
+  const std::size_t name = begin_of_name(final_name);
+  return fmt::format("{}.{}{}", final_name.substr(0, name), final_name.substr(name), kTemporarySuffix);
+}
+
+std::string shown_name(const std::string& path) {
+  const std::size_t name = begin_of_name(path);
+  if (path.size() <= name + 1 + kTemporarySuffix.size() || path[name] != '.' ||
+      !path.ends_with(kTemporarySuffix))
+    return path;
+  return path.substr(0, name) + path.substr(name + 1, path.size() - name - 1 - kTemporarySuffix.size());
 }
 
 void write_rank_file(const std::string& path, const RankMesh& mesh) {

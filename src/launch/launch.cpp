@@ -117,8 +117,8 @@ LaunchPlan plan_launch(const Deck& deck, std::span<const std::string> words, con
     if (!environment(name)) plan.environment.emplace_back(name, value);
   };
   add(kOwnMark, "1");
-  // Open MPI 3 and 4 read OMPI_*, Open MPI 5 the PRTE_* ones; other launchers ignore both. Its remarks on ranks that
-  // fail would hide the one message that tells why; launch() speaks up where there was none.
+  // Open MPI 3 and 4 read OMPI_*, Open MPI 5 the PRTE_* ones; other launchers ignore both. Its remarks on
+  // ranks that fail would hide the one message that tells why; launch() speaks up where there was none.
   add("OMPI_MCA_orte_execute_quiet", "1");
   add("PRTE_MCA_prte_execute_quiet", "1");
   add("OMPI_ALLOW_RUN_AS_ROOT", "1");

@@ -11,7 +11,8 @@ namespace {
 std::size_t at(std::int32_t id) { return static_cast<std::size_t>(id); }
 
 // Lowers the label of every component to the least label of its members; whether any was lowered.
-bool take_least(const std::vector<GhostExchange::Link>& links, const std::vector<GlobalId>& value, Components& components) {
+bool take_least(const std::vector<GhostExchange::Link>& links, const std::vector<GlobalId>& value,
+                Components& components) {
   bool lowered = false;
   for (const GhostExchange::Link& link : links)
     for (const LocalId item : link.items) {
@@ -24,14 +25,17 @@ bool take_least(const std::vector<GhostExchange::Link>& links, const std::vector
 }
 
 // Shared entities get the labels of their components.
-void spread(const std::vector<GhostExchange::Link>& links, const Components& components, std::vector<GlobalId>& value) {
+void spread(const std::vector<GhostExchange::Link>& links, const Components& components,
+            std::vector<GlobalId>& value) {
   for (const GhostExchange::Link& link : links)
     for (const LocalId item : link.items) value[at(item)] = components.label[at(components.of[at(item)])];
 }
 
 }  // namespace
 
-DisjointSets::DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+DisjointSets::DisjointSets(std::size_t count) : parent_(count) {
+  std::iota(parent_.begin(), parent_.end(), 0);
+}
 
 std::vector<std::int32_t> DisjointSets::numbered(std::vector<LocalId>& roots) && {
   // Parents come before their children, so that one pass finds all roots numbered already.
@@ -46,7 +50,8 @@ std::vector<std::int32_t> DisjointSets::numbered(std::vector<LocalId>& roots) &&
   return std::move(parent_);
 }
 
-Components connected_components(const Comm& comm, DisjointSets sets, std::span<const GlobalId> ids, const GhostExchange& exchange) {
+Components connected_components(const Comm& comm, DisjointSets sets, std::span<const GlobalId> ids,
+                                const GhostExchange& exchange) {
   Components out;
   out.of = std::move(sets).numbered(out.first);
   out.label.reserve(out.first.size());
@@ -56,7 +61,8 @@ Components connected_components(const Comm& comm, DisjointSets sets, std::span<c
   for (bool changed = true; changed;) {
     spread(exchange.sends(), out, value);
     spread(exchange.receives(), out, value);
-    exchange.reduce_to_owners(std::span<GlobalId>(value), [](GlobalId a, GlobalId b) { return std::min(a, b); });
+    exchange.reduce_to_owners(std::span<GlobalId>(value),
+                              [](GlobalId a, GlobalId b) { return std::min(a, b); });
     bool lowered = take_least(exchange.sends(), value, out);
     spread(exchange.sends(), out, value);
     exchange.copy_to_ghosts(value);
@@ -76,11 +82,13 @@ std::int64_t number_components(const Comm& comm, Components& components, std::sp
   const auto named = [&](std::size_t c) { return Named{group.empty() ? 0 : group[c], components.label[c]}; };
   std::vector<Named> all;
   for (std::size_t c = 0; c < components.label.size(); ++c)
-    if (ids[at(components.first[c])] == components.label[c]) all.push_back(named(c));  // others have it elsewhere
+    if (ids[at(components.first[c])] == components.label[c])
+      all.push_back(named(c));  // others have it elsewhere
   if (comm.size() > 1) all = comm.concatenate(all);
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
-  check(all.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()), "more than 2^31 components");
+  check(all.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()),
+        "more than 2^31 components");
   std::vector<std::int32_t> number(components.label.size());
   for (std::size_t c = 0; c < number.size(); ++c)
     number[c] = static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), named(c)) - all.begin());

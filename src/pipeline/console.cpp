@@ -9,9 +9,11 @@
 namespace sculpt {
 namespace {
 
-constexpr double kUnits = 1073741824.0;  // 2^30 per unit of volume of a cell: sums of integers do not depend on ranks
+constexpr double kUnits =
+    1073741824.0;  // 2^30 per unit of volume of a cell: sums of integers do not depend on ranks
 
-constexpr int kVolumePasses = 5;  // of the Laplacian on volume nodes; more change nothing that the optimisation keeps
+constexpr int kVolumePasses =
+    5;  // of the Laplacian on volume nodes; more change nothing that the optimisation keeps
 
 std::string time_text() {
   const std::time_t now = std::time(nullptr);
@@ -24,10 +26,11 @@ double cell_volume(const HexMesh& mesh) { return mesh.cell_size.x * mesh.cell_si
 
 }  // namespace
 
-InterfaceSmoothing interface_smoothing(const Deck& deck) {
+InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells) {
   InterfaceSmoothing s;
   s.curve = static_cast<CurveRule>(deck.csmooth);
   s.pairs = deck.laplacian_iters;
+  s.project = !pure_cells && deck.smooth != kSmoothNoSurfaceProjections;
   if (deck.smooth == kSmoothNoSurfaceProjections) {  // smoother, at the price of some volume
     s.pairs *= 2;
     s.grow = -0.45;
@@ -35,10 +38,16 @@ InterfaceSmoothing interface_smoothing(const Deck& deck) {
   return s;
 }
 
-SmoothOptions smooth_options(const Deck& deck) {
+SmoothOptions smooth_options(const Deck& deck, bool pure_cells) {
+  constexpr double kTrueSurfaces =
+      10;  // the interface is known better than from voxels, so it is held better
+
   SmoothOptions s;
   s.laplacian_passes = std::min(deck.laplacian_iters, kVolumePasses);
   s.improve_sweeps = deck.max_opt_iters;
+  s.fidelity = pure_cells || deck.smooth == kSmoothNoSurfaceProjections
+                   ? 1
+                   : kTrueSurfaces;
   s.improve_below = deck.opt_threshold;
   s.target = deck.pcol_threshold;
   s.target_rounds = deck.max_pcol_iters;
@@ -50,22 +59,17 @@ void print_decomposition(const Log& log, const CartesianParts& parts) {
   constexpr char kAxis[3] = {'X', 'Y', 'Z'};
   const IndexBox first = parts.owned(0);
   log.line("Decomposing Cartesian grid for parallel...");
-  for (std::size_t d = 0; d < 3; ++d) log.line("  Rank 0 Number of cells/segment in directions {}   {}", kAxis[d], first.extent(d));
-  for (std::size_t d = 0; d < 3; ++d) log.line("  Global Number of grid segments in directions {}   {}", kAxis[d], parts.segments[d]);
-}
-
-void print_skipped_steps(const Log& log) {
-  log.line("(4/9) computing dual edge intersections...");
-  log.line("(5/9) computing material interfaces...");
-  log.line("(6/9) generating geometry...");
-  log.line("(7/9) generating buffer hexes...");
-  log.line("(8/9) generating interior hexes...");
-  log.line("(9/9) begin smoothing...");
+  for (std::size_t d = 0; d < 3; ++d)
+    log.line("  Rank 0 Number of cells/segment in directions {}   {}", kAxis[d], first.extent(d));
+  for (std::size_t d = 0; d < 3; ++d)
+    log.line("  Global Number of grid segments in directions {}   {}", kAxis[d], parts.segments[d]);
 }
 
 void print_smoothing_banner(const Log& log, const Deck& deck) {
-  constexpr const char* kCurve[] = {"OFF", "CIRCLE", "HERMITE", "AVERAGE_TANGENT", "NEIGHBOR_SURFACE_NORMAL", "VFRAC", "LINEAR"};
-  constexpr const char* kSurface[] = {"SMOOTH_OFF", "SMOOTH_SURF_HYBRID", "SMOOTH_SURF_FIXED_BBOX", "SMOOTH_SURF_NO_PROJECTIONS"};
+  constexpr const char* kCurve[] = {
+      "OFF", "CIRCLE", "HERMITE", "AVERAGE_TANGENT", "NEIGHBOR_SURFACE_NORMAL", "VFRAC", "LINEAR"};
+  constexpr const char* kSurface[] = {"SMOOTH_OFF", "SMOOTH_SURF_HYBRID", "SMOOTH_SURF_FIXED_BBOX",
+                                      "SMOOTH_SURF_NO_PROJECTIONS"};
   log.line("Begin smoothing hexes using:");
   log.line("  Curve Smoothing              = SMOOTH_CURV_{}", kCurve[deck.csmooth]);
   log.line("  Surface Smoothing            = {}", kSurface[deck.smooth]);
@@ -96,9 +100,11 @@ void print_mesh_summary(const Comm& comm, const Log& log, const Deck& deck, cons
   log.line("  Min Edge Len          {:f}", quality.shortest_edge);
   log.line("  Min Qual Rank         {}", quality.least_rank);
   if (quality.hexes > 0 && quality.least < deck.pcol_threshold)
-    log.line("  Worst hex at          {:g} {:g} {:g}", quality.least_at.x, quality.least_at.y, quality.least_at.z);
+    log.line("  Worst hex at          {:g} {:g} {:g}", quality.least_at.x, quality.least_at.y,
+             quality.least_at.z);
   if (quality.not_positive_inside > 0)
-    log.line("WARNING: the Jacobian of {} hexes is not positive everywhere inside", quality.not_positive_inside);
+    log.line("WARNING: the Jacobian of {} hexes is not positive everywhere inside",
+             quality.not_positive_inside);
 }
 
 void print_end(const Comm& comm, const Log& log, double seconds) {
@@ -116,12 +122,14 @@ void print_end(const Comm& comm, const Log& log, double seconds) {
   log.line("Done!");
 }
 
-VolumeTable::VolumeTable(const Comm& comm, const HexMesh& cells, const Fractions& fractions, const MaterialTable& materials)
+VolumeTable::VolumeTable(const Comm& comm, const HexMesh& cells, const Fractions& fractions,
+                         const MaterialTable& materials)
     : block_id_(materials.block_id) {
   std::vector<std::int64_t> units(block_id_.size(), 0);
   for (std::size_t c = 0; c < cells.hexes.size(); ++c) {
     if (cells.layer[c] != 0) continue;
-    for (auto e = static_cast<std::size_t>(fractions.offset[c]); e < static_cast<std::size_t>(fractions.offset[c + 1]); ++e)
+    for (auto e = static_cast<std::size_t>(fractions.offset[c]);
+         e < static_cast<std::size_t>(fractions.offset[c + 1]); ++e)
       units[static_cast<std::size_t>(fractions.material[e])] += std::llround(kUnits * fractions.value[e]);
   }
   comm.sum(units);

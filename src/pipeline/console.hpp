@@ -12,11 +12,11 @@
 
 namespace sculpt {
 
-[[nodiscard]] InterfaceSmoothing interface_smoothing(const Deck& deck);
-[[nodiscard]] SmoothOptions smooth_options(const Deck& deck);
+// pure_cells: every cell holds one material only (voxel data).
+[[nodiscard]] InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells);
+[[nodiscard]] SmoothOptions smooth_options(const Deck& deck, bool pure_cells);
 
 void print_decomposition(const Log& log, const CartesianParts& parts);
-void print_skipped_steps(const Log& log);  // stair meshes pass through them
 void print_smoothing_banner(const Log& log, const Deck& deck);
 // Collective.
 void print_mesh_summary(const Comm& comm, const Log& log, const Deck& deck, const WriteSummary& written,

@@ -18,10 +18,14 @@ namespace {
 // What -h, -vs and --print_input print instead of a run; empty when there is a run.
 std::string text_instead_of_run(CommandLine& line) {
   switch (line.action) {
-    case Action::kRun: return {};
-    case Action::kHelp: return help_text(line.help_topic);
-    case Action::kVersion: return version_text() + "\n";
-    case Action::kPrintInput: break;
+    case Action::kRun:
+      return {};
+    case Action::kHelp:
+      return help_text(line.help_topic);
+    case Action::kVersion:
+      return version_text() + "\n";
+    case Action::kPrintInput:
+      break;
   }
   apply_input_defaults(line.deck);
   return echo(line.deck);
@@ -49,7 +53,8 @@ void run_rank(const Comm& comm, const std::vector<std::string>& words, const std
     if (comm.rank() == 0) std::fputs(text.c_str(), stdout);
     return;
   }
-  if (const std::string mismatch = check_rank_count(line.deck, comm.size()); !mismatch.empty()) throw Error(mismatch);
+  if (const std::string mismatch = check_rank_count(line.deck, comm.size()); !mismatch.empty())
+    throw Error(mismatch);
   line.deck.num_procs = comm.size();
   apply_input_defaults(line.deck);
   validate(line.deck);
@@ -63,8 +68,8 @@ int complain(const std::string& message) {
   return kToldStatus;
 }
 
-// Before MPI starts: answers that need no ranks, wrong input, and the run of the ranks. The exit status, or nothing when
-// this process is a rank itself.
+// Before MPI starts: answers that need no ranks, wrong input, and the run of the ranks. The exit status, or
+// nothing when this process is a rank itself.
 std::optional<int> settled_without_mpi(const std::vector<std::string>& words, const std::string& program) {
   const Environment environment = process_environment();
   if (already_launched(environment)) return std::nullopt;
@@ -76,7 +81,8 @@ std::optional<int> settled_without_mpi(const std::vector<std::string>& words, co
   if (!should_launch(line.deck, program, environment)) return std::nullopt;
   apply_input_defaults(line.deck);
   validate(line.deck);
-  return launch(plan_launch(line.deck, words, find_mpiexec(line.deck, environment), this_host(), environment));
+  return launch(
+      plan_launch(line.deck, words, find_mpiexec(line.deck, environment), this_host(), environment));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "pipeline/console.hpp"
+#include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/contour.hpp"
 #include "sculpt/contour/interface_smoothing.hpp"
@@ -18,6 +19,7 @@
 #include "sculpt/pipeline/stages.hpp"
 #include "sculpt/smooth/smooth.hpp"
 #include "sculpt/vfrac/fractions.hpp"
+#include "sculpt/write/side_sets.hpp"
 #include "sculpt/write/write_mesh.hpp"
 
 namespace sculpt {
@@ -32,6 +34,8 @@ struct Overlay {
   MaterialTable materials;
   FaceNeighbours neighbours;
   std::optional<NodeHexes> around;
+  Index3 grid{0, 0, 0};  // cells per axis, all ranks
+  bool pure = true;      // on all ranks every cell holds one material only
 };
 
 bool surface_pillows(const Deck& deck) { return deck.pillow_surfaces || deck.pillow == kPillowSurfaces; }
@@ -62,10 +66,19 @@ Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages&
   MaterialData data = source->read(comm, wanted);
   stages.end("read input");
 
-  Overlay overlay{lattice_mesh(comm, grid, parts, layers), std::move(data.fractions), std::move(data.table), {}, {}};
+  Overlay overlay{lattice_mesh(comm, grid, parts, layers),
+                  std::move(data.fractions),
+                  std::move(data.table),
+                  {},
+                  {},
+                  grid.cells,
+                  true};
+  const bool pure = overlay.fractions.material.size() == static_cast<std::size_t>(overlay.fractions.cells());
+  overlay.pure = comm.min(std::int64_t{pure}) == 1;
   if (deck.micro_expand > 0)
-    overlay.fractions = expand_fractions(overlay.fractions, wanted[static_cast<std::size_t>(comm.rank())],
-                                         parts.ghosted(comm.rank(), layers), deck.micro_expand, source->grid().cells);
+    overlay.fractions =
+        expand_fractions(overlay.fractions, wanted[static_cast<std::size_t>(comm.rank())],
+                         parts.ghosted(comm.rank(), layers), deck.micro_expand, source->grid().cells);
   stages.end("distribute");
   return overlay;
 }
@@ -74,7 +87,8 @@ Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages&
 std::vector<std::uint8_t> unmeshed_cells(const Deck& deck, const Overlay& overlay) {
   std::vector<std::uint8_t> drop(overlay.cells.hexes.size(), 0);
   for (std::size_t c = 0; c < drop.size(); ++c) {
-    const bool is_void = overlay.materials.void_material && overlay.cells.material[c] == *overlay.materials.void_material;
+    const bool is_void =
+        overlay.materials.void_material && overlay.cells.material[c] == *overlay.materials.void_material;
     const bool mixed = overlay.fractions.offset[c + 1] - overlay.fractions.offset[c] > 1;
     drop[c] = (is_void && !deck.mesh_void) || (mixed && deck.stair == kStairInterior);
   }
@@ -96,8 +110,10 @@ void classify(const Comm& comm, const Deck& deck, Overlay& overlay, const Log& l
   if (deck.stair == kStairFast) return;
   const NodeHexes& around = overlay.around.emplace(cells);
   const ManifoldReport report = resolve_non_manifold(cells, overlay.fractions, neighbours, around);
-  log.line("  {} non-manifold nodes, {} cells reassigned in {} passes", report.bad_nodes, report.changed_cells, report.passes);
-  if (report.forced_nodes > 0) log.line("  WARNING: {} nodes were settled by merging their materials", report.forced_nodes);
+  log.line("  {} non-manifold nodes, {} cells reassigned in {} passes", report.bad_nodes,
+           report.changed_cells, report.passes);
+  if (report.forced_nodes > 0)
+    log.line("  WARNING: {} nodes were settled by merging their materials", report.forced_nodes);
   follow_assignment(overlay.fractions, cells.material);
   collectively(comm, "resolving non-manifolds", [&] {
     check(interfaces_are_manifold(cells, neighbours, around), "a material interface is not manifold");
@@ -122,13 +138,15 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
   for (const LocalId n : c.faces.nodes) grid_position.push_back(cells.position[static_cast<std::size_t>(n)]);
   place_nodes(cells, c.faces, crossings);
   stages.end("contour");
-  if (deck.smooth != kSmoothOff) smooth_interface(cells, c.faces, grid_position, interface_smoothing(deck));
+  if (deck.smooth != kSmoothOff)
+    smooth_interface(cells, c.faces, crossings, grid_position, interface_smoothing(deck, overlay.pure));
   c.weights = deviation_weights(cells, c.faces);
   stages.end("smooth interfaces");
   return c;
 }
 
-Geometry geometry_of(const HexMesh& mesh, const std::vector<LocalId>& original, const HexMesh& cells, const Contour& contour) {
+Geometry geometry_of(const HexMesh& mesh, const std::vector<LocalId>& original, const HexMesh& cells,
+                     const Contour& contour) {
   Geometry g;
   g.index.assign(mesh.position.size(), kNone);
   for (std::size_t n = 0; n < original.size(); ++n) {
@@ -143,23 +161,45 @@ Geometry geometry_of(const HexMesh& mesh, const std::vector<LocalId>& original, 
   return g;
 }
 
-// Hexes of the cells, without smoothing (stair) or with buffer layers and smoothing.
-HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, const Log& log, Stages& stages) {
+// The interfaces of a mesh that keeps the shape of the cells. Cells that are left out count as one material.
+Contour stair_interfaces(Overlay& overlay, const std::vector<std::uint8_t>& drop, const Log& log) {
+  log.line("(4/9) computing dual edge intersections...");
+  log.line("(5/9) computing material interfaces...");
+  for (std::size_t c = 0; c < drop.size(); ++c)
+    if (drop[c]) overlay.cells.material[c] = -1;
+  return {trace_interfaces(overlay.cells, overlay.neighbours), {}};
+}
+
+SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& overlay,
+                           const Interfaces& faces, const std::vector<std::uint8_t>& drop, const Log& log) {
+  log.line("(6/9) generating geometry...");
+  const Brep brep = build_brep(comm, overlay.cells, overlay.neighbours, faces);
+  log.line("  {} volumes, {} surfaces, {} curves, {} vertices", brep.volumes, brep.surfaces, brep.curves,
+           brep.vertices);
+  return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop, overlay.grid,
+                        deck.gen_sidesets);
+}
+
+// Hexes of the cells, without smoothing (stair) or with buffer layers and smoothing; and what their side sets
+// will be.
+HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, SidePlan& sides, const Log& log,
+                   Stages& stages) {
   const std::vector<std::uint8_t> drop = unmeshed_cells(deck, overlay);
-  if (deck.stair != kStairOff) {
-    print_skipped_steps(log);
-    const std::vector<std::int32_t> none(drop.size(), -1);
-    HexMesh mesh = pillow(comm, overlay.cells, none, drop, 0).mesh;
-    stages.end("generate hexes");
-    return mesh;
-  }
-  const Contour shape = contour(deck, overlay, log, stages);
+  const bool stair = deck.stair != kStairOff;
+  const Contour shape = stair ? stair_interfaces(overlay, drop, log) : contour(deck, overlay, log, stages);
   overlay.fractions = {};
   overlay.around.reset();
+  sides = generate_geometry(comm, deck, overlay, shape.faces, drop, log);
   overlay.neighbours = {};
-  log.line("(6/9) generating geometry...");
+  stages.end("generate geometry");
   log.line("(7/9) generating buffer hexes...");
   log.line("(8/9) generating interior hexes...");
+  if (stair) {
+    HexMesh mesh = pillow(comm, overlay.cells, std::vector<std::int32_t>(drop.size(), -1), drop, 0).mesh;
+    stages.end("generate hexes");
+    log.line("(9/9) begin smoothing...");
+    return mesh;
+  }
   std::vector<std::int32_t> label = overlay.cells.material;
   for (std::size_t c = 0; c < label.size(); ++c)
     if (drop[c]) label[c] = -1;
@@ -177,7 +217,7 @@ HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, const Lo
   log.line("(9/9) begin smoothing...");
   if (deck.smooth != kSmoothOff) {
     print_smoothing_banner(log, deck);
-    smooth_mesh(result.mesh, geometry, smooth_options(deck), log);
+    smooth_mesh(result.mesh, geometry, smooth_options(deck, overlay.pure), log);
   }
   stages.end("smooth volume");
   return std::move(result.mesh);
@@ -208,14 +248,18 @@ void run(const Comm& comm, const Deck& deck) {
   std::optional<VolumeTable> input_volumes;
   if (deck.compare_volume) input_volumes.emplace(comm, overlay.cells, overlay.fractions, materials);
   classify(comm, deck, overlay, log, stages);
-  const HexMesh mesh = build_mesh(comm, deck, std::move(overlay), log, stages);
+  SidePlan sides;
+  const HexMesh mesh = build_mesh(comm, deck, std::move(overlay), sides, log, stages);
 
   log.line("building exodus mesh...");
   log.line("generating global ids...");
   const QualitySummary quality = summarise(comm, mesh);
   stages.end("check quality");
+  if (deck.gen_sidesets != kSidesetsOff) log.line("building sidesets...");
+  const int pillows = deck.stair == kStairOff && surface_pillows(deck) ? 2 : 1;
+  const std::vector<SideFace> side_set_faces = side_faces(sides, mesh, pillows);
   if (comm.size() > 1) log.line("generating parallel communication maps...");
-  const WriteSummary written = write_mesh(comm, mesh, {}, write_options(deck, materials));
+  const WriteSummary written = write_mesh(comm, mesh, side_set_faces, write_options(deck, materials));
   stages.end("write files");
   if (input_volumes) input_volumes->compare(comm, mesh, log);
   print_mesh_summary(comm, log, deck, written, quality);

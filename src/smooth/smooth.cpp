@@ -54,6 +54,7 @@ class Phases {
     rules.target_lengths = Star::Target::kUnit;
     rules.least_move = 1e-5;
     rules.release_curves_below = options_.release_curves_below;
+    rules.penalty = options_.fidelity;
     int layers = 2;
     double eps = 0;
     for (int i = 0; i < kUntangleSweeps; ++i) {
@@ -81,6 +82,7 @@ class Phases {
     StepRules rules;
     rules.least_quality = options_.target;
     rules.release_curves_below = options_.release_curves_below;
+    rules.penalty = options_.fidelity;
     std::int64_t first = 0;
     for (int i = 0; i < options_.improve_sweeps; ++i) {
       const std::int64_t nodes = set_.choose(options_.improve_below, 1, i > 0);
@@ -105,6 +107,7 @@ class Phases {
     rules.least_quality = options_.target;
     rules.least_move = 1e-4;
     rules.release_curves_below = options_.release_curves_below;
+    rules.penalty = options_.fidelity;
     int round = 0;
     for (rules.power = 2; rules.power <= 8; rules.power *= 2) {
       rules.penalty *= std::pow(1 / options_.target, rules.power / 4.0);  // keeps pace with the energy at the target

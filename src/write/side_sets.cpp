@@ -24,27 +24,36 @@ struct Place {
 
 class Planner {
  public:
-  Planner(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours, const Interfaces& faces, const Brep& brep,
-          std::span<const std::uint8_t> drop, const std::array<GlobalId, 3>& grid)
-      : comm_(comm), cells_(cells), neighbours_(neighbours), faces_(faces), brep_(brep), drop_(drop), grid_(grid) {}
+  Planner(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours, const Interfaces& faces,
+          const Brep& brep, std::span<const std::uint8_t> drop, const std::array<GlobalId, 3>& grid)
+      : comm_(comm),
+        cells_(cells),
+        neighbours_(neighbours),
+        faces_(faces),
+        brep_(brep),
+        drop_(drop),
+        grid_(grid) {}
 
   SidePlan fixed() {
-    add_inner([](const InterfaceQuad&, std::size_t, bool exterior) { return exterior ? kExterior : kInterfaces; });
-    for (const BoxFaces::Face& f : box_faces()) plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, kGridBoundary});
+    add_inner(
+        [](const InterfaceQuad&, std::size_t, bool exterior) { return exterior ? kExterior : kInterfaces; });
+    for (const BoxFaces::Face& f : box_faces())
+      plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, kGridBoundary});
     return std::move(plan_);
   }
 
   SidePlan rve() {
-    for (const BoxFaces::Face& f : box_faces()) plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, f.side + 1});
+    for (const BoxFaces::Face& f : box_faces())
+      plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, f.side + 1});
     return std::move(plan_);
   }
 
-  // Surfaces between cells are numbered as in the brep, those on the box behind them, and all anew in the end.
+  // Surfaces between cells have the numbers of the brep, those on the box follow; in the end all get new ones.
   SidePlan variable() {
     const BoxFaces box = trace_box_faces(comm_, cells_, neighbours_, brep_.volume);
     add_inner([&](const InterfaceQuad& q, std::size_t i, bool) {
       const std::int64_t surface = brep_.surface[i];
-      // Seen from either cell a face is met at the cell before its plane.
+      // The cell before the plane: on a lattice always the first.
       const bool upward = kFaceSign[static_cast<std::size_t>(q.face)] > 0;
       note(surface, place(q.cell[0], q.face, cells_.hex_id[at(q.cell[upward ? 0 : 1])]));
       return surface;
@@ -67,7 +76,9 @@ class Planner {
     auto operator<=>(const First&) const = default;
   };
 
-  [[nodiscard]] bool meshed_here(LocalId cell) const { return cells_.layer[at(cell)] == 0 && !drop_[at(cell)]; }
+  [[nodiscard]] bool meshed_here(LocalId cell) const {
+    return cells_.layer[at(cell)] == 0 && !drop_[at(cell)];
+  }
 
   // set_of(quad, its index, whether it is exterior), for quads whose listed cell is owned.
   template <class SetOf>
@@ -76,10 +87,12 @@ class Planner {
       const InterfaceQuad& q = faces_.quads[i];
       const bool first_out = drop_[at(q.cell[0])] != 0, second_out = drop_[at(q.cell[1])] != 0;
       if (first_out && second_out) continue;
-      const bool by_second = first_out || (!second_out && cells_.material[at(q.cell[1])] > cells_.material[at(q.cell[0])]);
+      const bool by_second =
+          first_out || (!second_out && cells_.material[at(q.cell[1])] > cells_.material[at(q.cell[0])]);
       const LocalId cell = q.cell[by_second];
       if (cells_.layer[at(cell)] != 0) continue;
-      plan_.inner.push_back({cells_.hex_id[at(cell)], by_second ? face_of_second(q) : q.face, set_of(q, i, first_out || second_out)});
+      plan_.inner.push_back({cells_.hex_id[at(cell)], by_second ? face_of_second(q) : q.face,
+                             set_of(q, i, first_out || second_out)});
     }
   }
   [[nodiscard]] int face_of_second(const InterfaceQuad& q) const {
@@ -104,7 +117,8 @@ class Planner {
     GlobalId stride = 1;
     for (std::size_t d = 0; d < axis; ++d) stride *= grid_[d];
     const GlobalId index = cells_.hex_id[at(cell)] / stride % grid_[axis];
-    return {static_cast<std::int64_t>(axis), index + (kFaceSign[static_cast<std::size_t>(face)] > 0 ? 1 : 0), before};
+    return {static_cast<std::int64_t>(axis), index + (kFaceSign[static_cast<std::size_t>(face)] > 0 ? 1 : 0),
+            before};
   }
 
   void note(std::int64_t surface, const Place& where) { firsts_.push_back({surface, where}); }
@@ -116,14 +130,17 @@ class Planner {
     keep_least();
     std::vector<First> order = firsts_;
     std::sort(order.begin(), order.end(), [](const First& a, const First& b) { return a.place < b.place; });
-    std::vector<std::int64_t> id(static_cast<std::size_t>(firsts_.empty() ? 0 : firsts_.back().surface + 1), 0);
-    for (std::size_t i = 0; i < order.size(); ++i) id[static_cast<std::size_t>(order[i].surface)] = static_cast<std::int64_t>(i) + 1;
+    std::vector<std::int64_t> id(static_cast<std::size_t>(firsts_.empty() ? 0 : firsts_.back().surface + 1),
+                                 0);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      id[static_cast<std::size_t>(order[i].surface)] = static_cast<std::int64_t>(i) + 1;
     for (auto* items : {&plan_.inner, &plan_.box})
       for (SidePlan::Item& item : *items) item.set = id[static_cast<std::size_t>(item.set)];
   }
   void keep_least() {
     std::sort(firsts_.begin(), firsts_.end());
-    firsts_.erase(std::unique(firsts_.begin(), firsts_.end(), [](const First& a, const First& b) { return a.surface == b.surface; }),
+    firsts_.erase(std::unique(firsts_.begin(), firsts_.end(),
+                              [](const First& a, const First& b) { return a.surface == b.surface; }),
                   firsts_.end());
   }
 
@@ -144,7 +161,8 @@ class Finder {
     for (int s = 0; s < stages; ++s) family_ *= kHexFactor;
   }
 
-  // The hex in which the face of a cell ended up: at each stage the buffer hex on the face, or else the hex itself.
+  // The hex in which the face of a cell ended up: at each stage the buffer hex on the face, or else the hex
+  // itself.
   void add_inner(const SidePlan::Item& item) {
     LocalId hex = kNone;
     int face = item.at;
@@ -188,15 +206,19 @@ class Finder {
 
 }  // namespace
 
-SidePlan plan_side_sets(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours, const Interfaces& faces,
-                        const Brep& brep, std::span<const std::uint8_t> drop, const std::array<GlobalId, 3>& grid,
-                        int gen_sidesets) {
+SidePlan plan_side_sets(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
+                        const Interfaces& faces, const Brep& brep, std::span<const std::uint8_t> drop,
+                        const std::array<GlobalId, 3>& grid, int gen_sidesets) {
   Planner planner(comm, cells, neighbours, faces, brep, drop, grid);
   switch (gen_sidesets) {
-    case kSidesetsFixed: return planner.fixed();
-    case kSidesetsVariable: return planner.variable();
-    case kSidesetsRve: return planner.rve();
-    default: return {};
+    case kSidesetsFixed:
+      return planner.fixed();
+    case kSidesetsVariable:
+      return planner.variable();
+    case kSidesetsRve:
+      return planner.rve();
+    default:
+      return {};
   }
 }
 

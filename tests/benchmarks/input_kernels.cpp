@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -29,7 +30,7 @@ class SpnFile {
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
-  std::string path_ = "/tmp/sculpt-kernels-XXXXXX";
+  std::string path_ = P_tmpdir "/sculpt-kernels-XXXXXX";
 };
 
 void scan_spn(benchmark::State& state) {

@@ -41,7 +41,8 @@ std::string spn_text(const Voxels& voxels, const std::vector<int>& axes) {
 }
 
 std::string spn_deck(const Voxels& voxels, const std::string& file) {
-  return fmt::format("input_spn = {}\nnelx = {}\nnely = {}\nnelz = {}\n", file, voxels.nx, voxels.ny, voxels.nz);
+  return fmt::format("input_spn = {}\nnelx = {}\nnely = {}\nnelz = {}\n", file, voxels.nx, voxels.ny,
+                     voxels.nz);
 }
 
 Voxels letter_f() {
@@ -77,16 +78,19 @@ Voxels grains(int side, int count, std::uint64_t seed) {
 
 std::string two_spheres() {
   return "diatom\n"
-         "  package 'inner'\n    material 1\n    insert sphere\n      center = 0 0 0\n      radius = 5\n    endinsert\n"
+         "  package 'inner'\n    material 1\n    insert sphere\n      center = 0 0 0\n      radius = 5\n    "
+         "endinsert\n"
          "  endpackage\n"
-         "  package 'outer'\n    material 2\n    insert sphere\n      center = 0 0 0\n      radius = 10\n    endinsert\n"
+         "  package 'outer'\n    material 2\n    insert sphere\n      center = 0 0 0\n      radius = 10\n    "
+         "endinsert\n"
          "  endpackage\n"
          "enddiatom\n";
 }
 
 std::string two_spheres_deck(const std::string& file) {
   return "diatom_file = " + file +
-         "\nnelx = 16\nnely = 16\nnelz = 16\nxmin = -16\nymin = -16\nzmin = -16\nxmax = 16\nymax = 16\nzmax = 16\n";
+         "\nnelx = 16\nnely = 16\nnelz = 16\nxmin = -16\nymin = -16\nzmin = -16\nxmax = 16\nymax = 16\nzmax "
+         "= 16\n";
 }
 
 std::string smooth_fractions() {

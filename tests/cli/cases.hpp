@@ -18,12 +18,12 @@ struct Voxels {
 // The same voxels with the loops in another order: axes[0] outermost (0 = x).
 [[nodiscard]] std::string spn_text(const Voxels& voxels, const std::vector<int>& axes);
 
-[[nodiscard]] Voxels letter_f();                                         // 3 x 5 x 4, ids 1 and 2
-[[nodiscard]] Voxels one_layer();                                        // 12 x 10 x 1, ids 1 to 6
-[[nodiscard]] Voxels grains(int side, int count, std::uint64_t seed);    // Voronoi cells of random points
+[[nodiscard]] Voxels letter_f();                                       // 3 x 5 x 4, ids 1 and 2
+[[nodiscard]] Voxels one_layer();                                      // 12 x 10 x 1, ids 1 to 6
+[[nodiscard]] Voxels grains(int side, int count, std::uint64_t seed);  // Voronoi cells of random points
 
-// A diatom file of two concentric spheres: radius 5 in material 1, radius 10 in material 2; and its deck on 16^3 cells
-// of the box +-16.
+// A diatom file of two concentric spheres: radius 5 in material 1, radius 10 in material 2; and its deck on
+// 16^3 cells of the box +-16.
 [[nodiscard]] std::string two_spheres();
 [[nodiscard]] std::string two_spheres_deck(const std::string& file);
 

@@ -64,7 +64,8 @@ void set_environment(const RunOptions& options) {
   for (const auto& [name, value] : options.environment) ::setenv(name.c_str(), value.c_str(), 1);
 }
 
-[[noreturn]] void become(const Words& words, const RunOptions& options, const Capture& out, const Capture& error) {
+[[noreturn]] void become(const Words& words, const RunOptions& options, const Capture& out,
+                         const Capture& error) {
   ::setpgid(0, 0);
   redirect("/dev/null", O_RDONLY, STDIN_FILENO);
   redirect(out.path().c_str(), O_WRONLY | O_APPEND, STDOUT_FILENO);

@@ -10,14 +10,14 @@ namespace sculpt::cli {
 using Words = std::vector<std::string>;
 
 struct RunOptions {
-  std::string folder{};                                          // where the program runs
-  double seconds = 60;                                           // after that it is killed
+  std::string folder{};                                            // where the program runs
+  double seconds = 60;                                             // after that it is killed
   std::vector<std::pair<std::string, std::string>> environment{};  // added to that of the test
-  std::int64_t largest_file = -1;                                // bytes; -1 = no limit
+  std::int64_t largest_file = -1;                                  // bytes; -1 = no limit
 };
 
 struct RunResult {
-  int status = -1;         // exit status; -signal when a signal ended the program
+  int status = -1;  // exit status; -signal when a signal ended the program
   bool timed_out = false;
   std::string out, error;  // what it printed
 };

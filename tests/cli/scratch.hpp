@@ -28,8 +28,8 @@ class Scratch : public ::testing::Test {
   // The same; a test failure when the status is not 0 or stderr is not empty.
   RunResult succeed(const Words& words, const RunOptions& options = {}) const;
 
-  // Meshes `deck` (lines between BEGIN and END, without exodus_file) on `ranks` ranks, joins the files and reads the
-  // result. The output is base.e.N.r with base = "mesh<ranks>".
+  // Meshes `deck` (lines between BEGIN and END, without exodus_file) on `ranks` ranks, joins the files and
+  // reads the result. The output is base.e.N.r with base = "mesh<ranks>".
   [[nodiscard]] RankMesh mesh(const std::string& deck, int ranks);
   // The console output of the last mesh().
   [[nodiscard]] const std::string& console() const { return console_; }

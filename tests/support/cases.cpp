@@ -62,7 +62,7 @@ double scatter_unit(std::uint64_t seed, std::uint64_t item) {
 
 Case voxels(const std::string& name, const Index3& cells, std::int32_t materials,
             const std::function<std::int32_t(const Index3&)>& material) {
-  return {name, unit_grid(cells), materials, [material](const Index3& c, Fractions& f) { f.add(material(c), 1); }};
+  return {name, unit_grid(cells), materials, [material](const Index3& c, Fractions& f) { f.add(material(c), 1); }, true};
 }
 
 Case voxels(const Index3& cells, const std::vector<std::int32_t>& material) {

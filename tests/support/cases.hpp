@@ -16,6 +16,7 @@ struct Case {
   Grid grid;
   std::int32_t materials = 1;
   std::function<void(const Index3&, Fractions&)> fill;  // adds the entries of one cell, not its end
+  bool pure = false;                                    // one material per cell
 };
 
 // Fractions of the cells of a box, x fastest.

@@ -81,7 +81,9 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   for (const LocalId n : faces.nodes) grid_position.push_back(cells.position[at(n)]);
   place_nodes(cells, faces, crossings);
   note("contour", cells);
-  smooth_interface(cells, faces, grid_position, options.interfaces);
+  InterfaceSmoothing smoothing = options.interfaces;
+  smoothing.project = !input.pure;
+  smooth_interface(cells, faces, crossings, grid_position, smoothing);
   note("smooth interfaces", cells);
 
   std::vector<std::uint8_t> drop(cells.hexes.size());
@@ -92,7 +94,9 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   result.cells = comm.sum(result.cells);
   Pillowed pillowed = pillow_cells(comm, cells, drop, options.pillow_surfaces);
   note("pillow", pillowed.mesh);
-  smooth_mesh(pillowed.mesh, geometry_of(pillowed, cells, faces), options.smoothing, Log());
+  SmoothOptions volume_smoothing = options.smoothing;
+  volume_smoothing.fidelity = input.pure ? 1 : 10;
+  smooth_mesh(pillowed.mesh, geometry_of(pillowed, cells, faces), volume_smoothing, Log());
   note("smooth", pillowed.mesh);
   result.mesh = std::move(pillowed.mesh);
   return result;

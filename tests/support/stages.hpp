@@ -26,7 +26,7 @@ struct Overlay {
 struct StageOptions {
   bool pillow_surfaces = false;
   std::int32_t void_material = -1;  // left out of the mesh
-  InterfaceSmoothing interfaces;
+  InterfaceSmoothing interfaces;  // whether to project is decided by the input, as the program does
   SmoothOptions smoothing;
 };
 

@@ -1,12 +1,13 @@
 #pragma once
-// The boundary representation of the overlay mesh (the report, section 2.8): which cells make up a volume, which quads
-// a surface, which edges a curve, over all ranks. Numbers run from 0 and do not depend on the number of ranks.
+// The boundary representation of the overlay mesh (the report, section 2.8): which cells make up a volume,
+// which quads a surface, which edges a curve, over all ranks. Numbers run from 0 and do not depend on the
+// number of ranks.
 //
-//   volume   cells of one material that are connected through faces; the void is a material like the others
-//   surface  interface quads that are connected through edges where exactly two quads meet; so it lies between one pair
-//            of volumes, and two volumes may meet in several surfaces
-//   curve    edges where other than two interface quads meet, connected through nodes of class kCurve; a closed curve
-//            may have no vertex, a closed surface no curve
+//   volume   cells of one material that are connected through faces; the void is a material like others
+//   surface  interface quads that are connected through edges where exactly two quads meet; so it lies
+//            between one pair of volumes, and two volumes may meet in several surfaces
+//   curve    edges where other than two interface quads meet, connected through nodes of class kCurve;
+//            a closed curve may have no vertex, a closed surface no curve
 //   vertex   a node of class kVertex
 #include <cstdint>
 #include <vector>
@@ -22,11 +23,13 @@ struct Brep {
   std::int64_t volumes = 0, surfaces = 0, curves = 0, vertices = 0;  // on all ranks
 };
 
-// Collective. The cells need two ghost layers. Work: one pass over the cells, the rest in proportion to the interfaces.
-[[nodiscard]] Brep build_brep(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours, const Interfaces& faces);
+// Collective. The cells need two ghost layers. Work: one pass over the cells, the rest in proportion to the
+// interfaces.
+[[nodiscard]] Brep build_brep(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
+                              const Interfaces& faces);
 
-// The faces of cells on the sides of the box, and the surfaces they form: those of one volume and one side of the box
-// that are connected through edges.
+// The faces of cells on the sides of the box, and the surfaces they form: those of one volume and one side of
+// the box that are connected through edges.
 struct BoxFaces {
   struct Face {
     LocalId cell;
@@ -39,7 +42,8 @@ struct BoxFaces {
 };
 
 // Collective.
-[[nodiscard]] BoxFaces trace_box_faces(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
+[[nodiscard]] BoxFaces trace_box_faces(const Comm& comm, const HexMesh& cells,
+                                       const FaceNeighbours& neighbours,
                                        const std::vector<std::int32_t>& volume);
 
 }  // namespace sculpt

@@ -19,6 +19,9 @@ namespace sculpt {
 // A hidden name in the same folder as `final_name`, so that publish() is one rename.
 [[nodiscard]] std::string temporary_name(const std::string& final_name);
 
+// The name that a temporary one stands for, which is what messages show; other names stay as they are.
+[[nodiscard]] std::string shown_name(const std::string& path);
+
 // Local. Throws Error with the file and the cause (disk full, no permission, a limit of the format); the file
 // is removed then. Throws BrokenPromise when the mesh contradicts itself.
 void write_rank_file(const std::string& path, const RankMesh& mesh);

@@ -52,11 +52,12 @@ struct LaunchPlan {
                                      const std::string& mpiexec, const Host& host,
                                      const Environment& environment);
 
-// Exit status of a run whose message on stderr says what is wrong. mpiexec has other numbers for troubles of its own.
+// Exit status of a run whose message on stderr says what is wrong. mpiexec has other numbers for troubles of
+// its own.
 inline constexpr int kToldStatus = 2;
 
-// Prints the announcement, sets the environment, runs mpiexec and waits for its end, passing signals on. Returns 0 or
-// kToldStatus. Error: mpiexec cannot be run, or the ranks ended without having said why.
+// Prints the announcement, sets the environment, runs mpiexec and waits for its end, passing signals on.
+// Returns 0 or kToldStatus. Error: mpiexec cannot be run, or the ranks ended without having said why.
 [[nodiscard]] int launch(const LaunchPlan& plan);
 
 // For a rank: empty, or what is wrong when -j was given and is not the number of ranks.

@@ -1,6 +1,6 @@
 #pragma once
-// Connected components of entities that are spread over ranks (cells joined by faces, quads joined by edges, ...). The
-// label of a component is the smallest global id in it, so it does not depend on the number of ranks.
+// Connected components of entities that are spread over ranks (cells joined by faces, quads joined by edges).
+// The label of a component is the smallest global id in it, so it does not depend on the number of ranks.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -41,19 +41,21 @@ class DisjointSets {
 };
 
 struct Components {
-  std::vector<std::int32_t> of;   // per local entity: its component, an index into the next two
-  std::vector<GlobalId> label;    // smallest global id in the component, over all ranks
-  std::vector<LocalId> first;     // smallest local member
+  std::vector<std::int32_t> of;  // per local entity: its component, an index into the next two
+  std::vector<GlobalId> label;   // smallest global id in the component, over all ranks
+  std::vector<LocalId> first;    // smallest local member
 };
 
-// Collective. sets: what this rank joined; ids: global ids of the local entities, ascending; exchange: theirs. Two
-// entities are in one component when any chain of joins, on whichever ranks, leads from one to the other. Every join
-// has to be made on one rank at least. Rounds of messages: the most ranks that a component enters in a row.
-[[nodiscard]] Components connected_components(const Comm& comm, DisjointSets sets, std::span<const GlobalId> ids,
-                                              const GhostExchange& exchange);
+// Collective. sets: what this rank joined; ids: global ids of the local entities, ascending; exchange:
+// theirs. Two entities are in one component when any chain of joins, on whichever ranks, leads from one to
+// the other; it is enough that every join is made on one rank. Takes as many rounds of messages as the
+// smallest id needs to travel through the ranks, plus one.
+[[nodiscard]] Components connected_components(const Comm& comm, DisjointSets sets,
+                                              std::span<const GlobalId> ids, const GhostExchange& exchange);
 
-// Collective. Numbers the components of all ranks from 0 in the order of (group, label), and puts these numbers into
-// components.of. group: per local component, the same on all ranks (empty = all equal). Answers how many there are.
+// Collective. Numbers the components of all ranks from 0 in the order of (group, label), and puts these
+// numbers into components.of. group: per local component, the same on all ranks (empty = all equal). Answers
+// how many there are.
 std::int64_t number_components(const Comm& comm, Components& components, std::span<const GlobalId> ids,
                                std::span<const std::int32_t> group = {});
 

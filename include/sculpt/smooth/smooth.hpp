@@ -27,6 +27,7 @@ struct SmoothOptions {
   double improve_below = 0.6;      // scaled Jacobian
   double target = 0.3;             // scaled Jacobian that every hex shall reach
   int target_rounds = 100;         // most sweeps over hexes below the target
+  double fidelity = 1;             // weight of deviations of interface nodes from where they were put
   double release_curves_below = 0.1;  // curve nodes of hexes below it may leave their curve; negative: held harder
 };
 

@@ -1,17 +1,19 @@
 #pragma once
-// The side sets that the option gen_sidesets asks for. They are made on the overlay mesh, while it exists, from the cells'
-// faces (SidePlan, in proportion to the interfaces and the sides of the box), and handed to the hexes of the final mesh by
-// their ids, which tell the cell and the face that each hex stems from (pillow.hpp).
+// The side sets that the option gen_sidesets asks for. They are made on the overlay mesh, while it exists,
+// from the cells' faces (SidePlan, in proportion to the interfaces and the sides of the box), and handed to
+// the hexes of the final mesh by their ids, which tell the cell and the face that each hex stems from
+// (pillow.hpp).
 //
-//   fixed     1 = faces on the sides of the box, 2 = faces of materials towards cells that are no part of the mesh,
-//             3 = faces between two materials
-//   variable  one set per surface (brep.hpp): those on the sides of the box, those towards unmeshed cells, and those
-//             between materials; ids from 1 in the order in which real Sculpt's loops meet them: a surface's first
-//             face is the one with the smallest (axis of its normal, grid plane, cell), and these ascend
+//   fixed     1 = faces on the sides of the box, 2 = faces of materials towards cells that are no part of
+//             the mesh, 3 = faces between two materials
+//   variable  one set per surface (brep.hpp): those on the sides of the box, those towards unmeshed cells,
+//             and those between materials; ids from 1 in the order in which real Sculpt meets them: a
+//             surface's first face is the one with the smallest (axis of its normal, grid plane, cell),
+//             and the first faces ascend
 //   rve       1..6 = the sides xmin, xmax, ymin, ymax, zmin, zmax of the box
 //
-// A face between two meshed materials is listed once, by the cell of the larger dense material index. A set without
-// faces does not appear.
+// A face between two meshed materials is listed once, by the cell of the larger dense material index. A set
+// without faces does not appear.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -27,18 +29,20 @@ namespace sculpt {
 struct SidePlan {
   struct Item {
     GlobalId cell;
-    std::int32_t at;   // inner: kFaces index; box: bit number of the BoxSide
+    std::int32_t at;  // inner: kFaces index; box: bit number of the BoxSide
     std::int64_t set;
   };
   std::vector<Item> inner;  // faces towards another material or an unmeshed cell
   std::vector<Item> box;    // faces on the sides of the box
 };
 
-// Collective. gen_sidesets: a value of GenSidesets (deck.hpp); kSidesetsOff gives an empty plan. drop: per cell, 1 = no
-// part of the mesh; all of these have one material that no other cell has. grid: cells of the Cartesian grid per axis,
-// all 0 when the overlay mesh is none (the planes of one axis then count as one). brep is used for `variable` only.
-[[nodiscard]] SidePlan plan_side_sets(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
-                                      const Interfaces& faces, const Brep& brep, std::span<const std::uint8_t> drop,
+// Collective. gen_sidesets: a value of GenSidesets (deck.hpp); kSidesetsOff gives an empty plan. drop: per
+// cell, 1 = no part of the mesh; all of these have one material that no other cell has. grid: cells of the
+// Cartesian grid per axis, all 0 when the overlay mesh is none (the planes of one axis then count as one).
+// brep is used for `variable` only.
+[[nodiscard]] SidePlan plan_side_sets(const Comm& comm, const HexMesh& cells,
+                                      const FaceNeighbours& neighbours, const Interfaces& faces,
+                                      const Brep& brep, std::span<const std::uint8_t> drop,
                                       const std::array<GlobalId, 3>& grid, int gen_sidesets);
 
 // Local. The faces of owned hexes of the final mesh, each once. stages: how often pillow() was called.

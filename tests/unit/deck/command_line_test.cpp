@@ -130,7 +130,7 @@ TEST(ParseCommandLine, SaysWhatIsWrong) {
 
 TEST(ReadDeckFile, NamesTheFileItCannotOpen) {
   EXPECT_EQ(message_of([] { (void)read_deck_file("no/such/deck.i"); }),
-            "deck 'no/such/deck.i': cannot open the file");
+            "deck 'no/such/deck.i': cannot open the file: No such file or directory");
   const std::string folder = std::filesystem::temp_directory_path().string();
   EXPECT_EQ(message_of([&] { (void)read_deck_file(folder); }),
             "deck '" + folder + "': this is a folder, not a file");

@@ -51,6 +51,10 @@ TEST(RankFileName, PadsTheRankToTheDigitsOfTheNumberOfRanks) {
 TEST(TemporaryName, StaysInTheFolder) {
   EXPECT_EQ(temporary_name("m.e.1.0"), ".m.e.1.0.part");
   EXPECT_EQ(temporary_name("some.where/m.e.1.0"), "some.where/.m.e.1.0.part");
+  for (const std::string name : {"m.e.1.0", "some.where/m.e.1.0", "/.hidden", "a.part"}) {
+    EXPECT_EQ(shown_name(temporary_name(name)), name);
+    EXPECT_EQ(shown_name(name), name);
+  }
 }
 
 TEST(WriteRankFile, ReadsBackASerialMesh) { expect_identity(row_of_cubes({{1, 0}, {1, 0}, {7, 0}}, 0, 1)); }

@@ -189,7 +189,8 @@ TEST(Launch, FailsWithAMessageWhenTheProgramCannotRun) {
 
 TEST(Launch, ReturnsTheStatusOfRanksThatSaidWhy) {
   EXPECT_EQ(complaint(plan_of("exit 0")), "status 0");
-  EXPECT_EQ(complaint(plan_of("exit " + std::to_string(kToldStatus))), "status " + std::to_string(kToldStatus));
+  EXPECT_EQ(complaint(plan_of("exit " + std::to_string(kToldStatus))),
+            "status " + std::to_string(kToldStatus));
 }
 
 TEST(Launch, SpeaksUpWhenTheRanksEndedWithoutAWord) {

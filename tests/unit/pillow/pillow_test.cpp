@@ -1,0 +1,161 @@
+#include "sculpt/pillow/pillow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "sculpt/brep/interfaces.hpp"
+#include "sculpt/mesh/adjacency.hpp"
+#include "support/mesh_checks.hpp"
+#include "support/stages.hpp"
+
+namespace sculpt {
+namespace {
+
+Pillowed pillowed(const HexMesh& cells, double offset = 0.3) {
+  const std::vector<std::uint8_t> keep(cells.hexes.size(), 0);
+  return pillow(Comm::self(), cells, cells.material, keep, offset);
+}
+
+std::int64_t quads(const HexMesh& cells) {
+  return static_cast<std::int64_t>(trace_interfaces(cells, face_neighbours(cells)).quads.size());
+}
+
+TEST(Pillow, OfAPlaneByHand) {
+  const test::Overlay o = test::overlay(test::voxels({2, 1, 1}, {0, 1}));
+  const Pillowed p = pillowed(o.cells);
+  ASSERT_EQ(p.mesh.size(), 4);
+  ASSERT_EQ(p.mesh.nodes(), 12 + 8);
+  EXPECT_EQ(p.mesh.hex_id, (std::vector<GlobalId>{0, 2, 8, 12})) << "8 h and 8 h + face + 1";
+  EXPECT_EQ(p.mesh.material, (std::vector<std::int32_t>{0, 0, 1, 1}));
+  EXPECT_EQ(std::count(p.original.begin(), p.original.end(), kNone), 8);
+  for (std::size_t n = 0; n < p.original.size(); ++n) {
+    if (p.original[n] != kNone) {
+      EXPECT_EQ(p.mesh.position[n], o.cells.position[static_cast<std::size_t>(p.original[n])]) << "old nodes stay";
+      EXPECT_EQ(p.mesh.node_id[n] % 64, 0);
+    } else {  // a copy has gone 0.3 of the way from the interface to the middle of its cell, along the box
+      const double x = p.mesh.position[n].x;
+      EXPECT_TRUE(std::fabs(x - 0.85) < 1e-15 || std::fabs(x - 1.15) < 1e-15) << x;
+    }
+  }
+  EXPECT_NEAR(hex_volume(p.mesh.corners(0)), 0.85, 1e-14);
+  EXPECT_NEAR(hex_volume(p.mesh.corners(1)), 0.15, 1e-14);
+  EXPECT_EQ(test::conformity_problem(p.mesh), "");
+  EXPECT_EQ(test::boundary_problem(p.mesh), "");
+}
+
+TEST(Pillow, OfAnIsolatedCellByHand) {
+  const test::Overlay o = test::overlay(test::voxels("cell", {3, 3, 3}, 2, [](const Index3& c) { return c == Index3{1, 1, 1} ? 1 : 0; }));
+  const Pillowed p = pillowed(o.cells);
+  EXPECT_EQ(p.mesh.size(), 27 + 12);
+  EXPECT_EQ(p.mesh.nodes(), 64 + 16);
+  const std::vector<double> volumes = test::volumes(p.mesh, 2);
+  EXPECT_NEAR(volumes[0], 26, 1e-12);
+  EXPECT_NEAR(volumes[1], 1, 1e-12);
+}
+
+TEST(Pillow, WithoutInterfacesChangesNothingButIds) {
+  const test::Overlay o = test::overlay(test::voxels({3, 2, 2}, std::vector<std::int32_t>(12, 0)));
+  const Pillowed p = pillowed(o.cells);
+  EXPECT_EQ(p.mesh.position, o.cells.position);
+  EXPECT_EQ(p.mesh.hexes, o.cells.hexes);
+}
+
+void expect_pillowed_well(const test::Case& input) {
+  const test::Overlay o = test::filtered(input);
+  const std::int64_t faces = quads(o.cells);
+  const Pillowed p = pillowed(o.cells);
+  EXPECT_EQ(p.mesh.size(), o.cells.size() + 2 * faces) << input.name;
+  EXPECT_EQ(test::interface_faces(p.mesh), faces) << input.name;
+  EXPECT_EQ(test::conformity_problem(p.mesh), "") << input.name;
+  EXPECT_EQ(test::boundary_problem(p.mesh), "") << input.name;
+  EXPECT_EQ(test::box_problem(p.mesh, input.grid), "") << input.name;
+  EXPECT_NEAR(test::volume(p.mesh) / test::volume(input.grid), 1, 1e-12) << input.name;
+  const std::vector<double> before = test::volumes(o.cells, input.materials), after = test::volumes(p.mesh, input.materials);
+  for (std::size_t m = 0; m < before.size(); ++m) EXPECT_NEAR(after[m], before[m], 1e-9) << input.name << ", material " << m;
+
+  const Pillowed flat = pillowed(o.cells, 0);  // buffer hexes without thickness, the others as they were
+  double volume = 0;
+  for (LocalId h = 0; h < flat.mesh.size(); ++h) {
+    const double v = hex_volume(flat.mesh.corners(h));
+    const bool cell = flat.mesh.hex_id[static_cast<std::size_t>(h)] % 8 == 0;
+    EXPECT_NEAR(v, cell ? hex_volume(o.cells.corners(static_cast<LocalId>(flat.mesh.hex_id[static_cast<std::size_t>(h)] / 8))) : 0, 1e-14);
+    volume += v;
+  }
+  EXPECT_NEAR(volume / test::volume(input.grid), 1, 1e-12) << input.name;
+}
+
+TEST(Pillow, KeepsAnyMeshConforming) {
+  expect_pillowed_well(test::ball({8, 8, 8}, {4, 4, 4}, 2.6));
+  expect_pillowed_well(test::noise({7, 6, 5}, 2, 1));
+  expect_pillowed_well(test::noise({6, 6, 6}, 9, 2));
+  expect_pillowed_well(test::noise({9, 9, 1}, 3, 3));
+  expect_pillowed_well(test::grains({10, 9, 8}, 15, 15, 4));
+  expect_pillowed_well(test::voxels({5, 1, 1}, {0, 1, 2, 1, 0}));
+}
+
+TEST(Pillow, GivesANodeOneCopyPerSideOfTheInterface) {
+  // Eight materials at one node: one copy each.
+  const test::Overlay o = test::overlay(test::voxels({2, 2, 2}, {0, 1, 2, 3, 4, 5, 6, 7}));
+  const Pillowed p = pillowed(o.cells);
+  std::map<GlobalId, int> copies;
+  for (const GlobalId id : p.mesh.node_id) ++copies[id / 64];
+  EXPECT_EQ(copies[13], 9) << "the middle node and a copy for every material";
+  EXPECT_EQ(copies[0], 1) << "a corner of the box is no part of an interface";
+  EXPECT_EQ(copies[1], 3) << "in the middle of an edge of the box";
+  EXPECT_EQ(p.mesh.size(), 8 + 2 * 12);
+  EXPECT_EQ(test::conformity_problem(p.mesh), "");
+}
+
+TEST(Pillow, WithoutTheVoidHasOneLayerAtItsSurface) {
+  const test::Case input = test::ball({8, 8, 8}, {4, 4, 4}, 2.6);
+  const test::Overlay o = test::filtered(input);
+  std::vector<std::uint8_t> drop(o.cells.hexes.size());
+  std::vector<std::int32_t> label = o.cells.material;
+  std::int64_t kept = 0;
+  for (std::size_t c = 0; c < drop.size(); ++c) {
+    drop[c] = o.cells.material[c] == 0;
+    if (drop[c])
+      label[c] = -1;
+    else
+      ++kept;
+  }
+  const Pillowed p = pillow(Comm::self(), o.cells, label, drop, 0.3);
+  EXPECT_EQ(p.mesh.size(), kept + quads(o.cells));
+  EXPECT_EQ(test::conformity_problem(p.mesh), "");
+  EXPECT_TRUE(std::all_of(p.mesh.material.begin(), p.mesh.material.end(), [](std::int32_t m) { return m == 1; }));
+  EXPECT_NEAR(test::volume(p.mesh), static_cast<double>(kept), 1e-10);
+}
+
+TEST(SurfacePillow, AddsASecondLayerAtEveryInterface) {
+  for (const test::Case& input : {test::ball({8, 8, 8}, {4, 4, 4}, 2.6), test::grains({8, 8, 8}, 8, 8, 1)}) {
+    const test::Overlay o = test::filtered(input);
+    const std::int64_t faces = quads(o.cells);
+    const Pillowed first = pillowed(o.cells);
+    const std::vector<std::int32_t> label = surface_labels(first.mesh);
+    EXPECT_EQ(std::count_if(label.begin(), label.end(), [](std::int32_t l) { return l >= 0; }), 2 * faces) << input.name;
+    const std::vector<std::uint8_t> keep(first.mesh.hexes.size(), 0);
+    const Pillowed second = pillow(Comm::self(), first.mesh, label, keep, 0.5);
+    EXPECT_EQ(test::conformity_problem(second.mesh, 2), "") << input.name;
+    EXPECT_EQ(test::boundary_problem(second.mesh), "") << input.name;
+    EXPECT_EQ(test::box_problem(second.mesh, input.grid), "") << input.name;
+    EXPECT_EQ(test::interface_faces(second.mesh), test::interface_faces(first.mesh)) << input.name;
+    EXPECT_GE(second.mesh.size(), first.mesh.size() + 4 * faces) << "each sheet hex has a face inside and one outside";
+    EXPECT_NEAR(test::volume(second.mesh) / test::volume(input.grid), 1, 1e-12) << input.name;
+  }
+}
+
+TEST(SurfaceLabels, TellTheTwoSidesApart) {
+  const test::Overlay o = test::overlay(test::voxels({3, 1, 1}, {0, 1, 2}));
+  const HexMesh mesh = pillowed(o.cells).mesh;
+  ASSERT_EQ(mesh.size(), 3 + 4);
+  const std::vector<std::int32_t> label = surface_labels(mesh);
+  std::map<std::int32_t, int> count;
+  for (const std::int32_t l : label) ++count[l];
+  EXPECT_EQ(count[-1], 3) << "the cells themselves";
+  EXPECT_EQ(count.size(), 5U) << "0 to 1, 1 to 0, 1 to 2, 2 to 1";
+}
+
+}  // namespace
+}  // namespace sculpt

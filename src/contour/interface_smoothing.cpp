@@ -170,6 +170,7 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
     if (most > farthest)
       p = grid_position[i] + held_on_box((farthest / most) * move, mesh.box_sides[at(faces.nodes[i])]);
   }
+  mesh.node_exchange.copy_to_ghosts(mesh.position);
 }
 
 std::vector<Weight> deviation_weights(const HexMesh& mesh, const Interfaces& faces) {

@@ -66,7 +66,8 @@ class Pillower {
     out.node_owner.push_back(mesh_.node_owner[at(from)]);
     out.box_sides.push_back(mesh_.box_sides[at(from)]);
     out.colour.push_back(mesh_.colour[at(from)]);
-    result_.original.push_back(copy == 0 ? from : kNone);
+    result_.source.push_back(from);
+    result_.copied.push_back(copy != 0);
   }
 
   // Gives every old node, followed by its copies, a new number; corner_ tells which one a hex takes at a corner.
@@ -176,7 +177,8 @@ class Pillower {
       out.node_owner[to] = out.node_owner[n];
       out.box_sides[to] = out.box_sides[n];
       out.colour[to] = out.colour[n];
-      result_.original[to] = result_.original[n];
+      result_.source[to] = result_.source[n];
+      result_.copied[to] = result_.copied[n];
       renumbered[n] = next++;
     }
     out.position.resize(at(next));
@@ -184,7 +186,8 @@ class Pillower {
     out.node_owner.resize(at(next));
     out.box_sides.resize(at(next));
     out.colour.resize(at(next));
-    result_.original.resize(at(next));
+    result_.source.resize(at(next));
+    result_.copied.resize(at(next));
     for (Hex& hex : out.hexes)
       for (LocalId& n : hex) n = renumbered[at(n)];
   }
@@ -217,7 +220,8 @@ std::vector<std::int32_t> surface_labels(const HexMesh& mesh) {
   for (std::size_t h = 0; h < mesh.hexes.size(); ++h)
     for (const LocalId other : neighbours[h]) {
       if (other == kNone || mesh.material[at(other)] == mesh.material[h]) continue;
-      label[h] = pairs.try_emplace({mesh.material[h], mesh.material[at(other)]}, static_cast<std::int32_t>(pairs.size())).first->second;
+      const auto materials = std::minmax(mesh.material[h], mesh.material[at(other)]);
+      label[h] = pairs.try_emplace(materials, static_cast<std::int32_t>(pairs.size())).first->second;
     }
   return label;
 }

@@ -39,8 +39,7 @@ InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells) {
 }
 
 SmoothOptions smooth_options(const Deck& deck, bool pure_cells) {
-  constexpr double kTrueSurfaces =
-      10;  // the interface is known better than from voxels, so it is held better
+  constexpr double kTrueSurfaces = 2.5;  // the interface is known better than from voxels, so it is held better
 
   SmoothOptions s;
   s.laplacian_passes = std::min(deck.laplacian_iters, kVolumePasses);

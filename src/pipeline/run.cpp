@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "pipeline/console.hpp"
+#include "pipeline/interface_geometry.hpp"
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/contour.hpp"
@@ -145,22 +146,6 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
   return c;
 }
 
-Geometry geometry_of(const HexMesh& mesh, const std::vector<LocalId>& original, const HexMesh& cells,
-                     const Contour& contour) {
-  Geometry g;
-  g.index.assign(mesh.position.size(), kNone);
-  for (std::size_t n = 0; n < original.size(); ++n) {
-    if (original[n] == kNone) continue;
-    const LocalId entry = contour.faces.index_of[static_cast<std::size_t>(original[n])];
-    if (entry == kNone) continue;
-    g.index[n] = static_cast<LocalId>(g.target.size());
-    g.target.push_back(cells.position[static_cast<std::size_t>(original[n])]);
-    g.weight.push_back(contour.weights[static_cast<std::size_t>(entry)]);
-    g.on_curve.push_back(contour.faces.kind[static_cast<std::size_t>(entry)] != NodeClass::kSurface);
-  }
-  return g;
-}
-
 // The interfaces of a mesh that keeps the shape of the cells. Cells that are left out count as one material.
 Contour stair_interfaces(Overlay& overlay, const std::vector<std::uint8_t>& drop, const Log& log) {
   log.line("(4/9) computing dual edge intersections...");
@@ -206,12 +191,9 @@ HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, SidePlan
   Pillowed result = pillow(comm, overlay.cells, label, drop, kFirstOffset);
   if (surface_pillows(deck)) {
     const std::vector<std::uint8_t> keep(result.mesh.hexes.size(), 0);
-    Pillowed second = pillow(comm, result.mesh, surface_labels(result.mesh), keep, kSecondOffset);
-    for (LocalId& n : second.original)
-      if (n != kNone) n = result.original[static_cast<std::size_t>(n)];
-    result = std::move(second);
+    result = stacked(result, pillow(comm, result.mesh, surface_labels(result.mesh), keep, kSecondOffset));
   }
-  const Geometry geometry = geometry_of(result.mesh, result.original, overlay.cells, shape);
+  const Geometry geometry = interface_geometry(result, overlay.cells, shape.faces, shape.weights);
   overlay.cells = {};
   stages.end("generate hexes");
   log.line("(9/9) begin smoothing...");

@@ -11,6 +11,7 @@ namespace sculpt {
 namespace {
 
 constexpr int kUntangleSweeps = 60, kBulkSweeps = 3;
+constexpr int kRaiseAttempts = 3;
 constexpr double kFar = 0.02;        // a move that makes the neighbours worth another visit, in cells
 constexpr double kMargin = 0.05;     // hexes this little above the target are raised as well
 
@@ -95,7 +96,7 @@ class Phases {
   }
 
   // What is still below the target: steeper energies, which look more and more at the worst corner only, then the
-  // climb of single corners.
+  // climb of single corners. Where that is not enough interfaces give way more easily.
   void raise_to_target() {
     const std::int64_t nodes = set_.choose(options_.target, 0, false);
     if (nodes == 0) {
@@ -103,34 +104,49 @@ class Phases {
       return;
     }
     log_.line("Begin parallel color smoothing {} nodes below threshold {:f}", nodes, options_.target);
-    StepRules rules;
-    rules.least_quality = options_.target;
-    rules.least_move = 1e-4;
-    rules.release_curves_below = options_.release_curves_below;
-    rules.penalty = options_.fidelity;
     int round = 0;
+    double fidelity = options_.fidelity;
+    for (int attempt = 0; attempt < kRaiseAttempts && set_.worst(options_.target).below_target > 0; ++attempt) {
+      steepen(fidelity, round);
+      climb(round);
+      fidelity *= 0.1;
+    }
+    if (set_.worst(options_.target).below_target > 0)
+      log_.line("WARNING: Smoothing terminated. Unable to make additional improvement.");
+  }
+  void steepen(double fidelity, int& round) {
+    StepRules rules = raising_rules(fidelity);
     for (rules.power = 2; rules.power <= 8; rules.power *= 2) {
       rules.penalty *= std::pow(1 / options_.target, rules.power / 4.0);  // keeps pace with the energy at the target
       for (int i = 0; i < 4 && round < options_.target_rounds; ++i) {
-        if (set_.choose(options_.target + kMargin, 1, false) == 0) break;
+        if (set_.choose(options_.target + kMargin, 1, false) == 0) return;
         const std::int64_t moves = sweep(rules, kFar);
         report_target(++round, moves);
         if (moves == 0) break;
       }
     }
+  }
+  void climb(int& round) {
+    StepRules rules = raising_rules(0);
     rules.power = 4;
-    for (int i = 0; i < 20 && round < options_.target_rounds; ++i) {
-      if (set_.choose(options_.target, 0, false) == 0) break;
+    for (int i = 0; i < 12 && round < options_.target_rounds; ++i) {
+      if (set_.choose(options_.target, 0, false) == 0) return;
       const std::int64_t moves = set_.sweep([&](LocalId n) { return step_.climb(n, rules.least_edge); }, kFar);
       report_target(++round, moves);
-      if (moves == 0) break;
+      if (moves == 0) return;
       if (i % 4 == 3) {
         set_.choose(options_.target, 1, false);
         sweep(rules, kFar);
       }
     }
-    if (set_.worst(options_.target).below_target > 0)
-      log_.line("WARNING: Smoothing terminated. Unable to make additional improvement.");
+  }
+  [[nodiscard]] StepRules raising_rules(double fidelity) const {
+    StepRules rules;
+    rules.least_quality = options_.target;
+    rules.least_move = 1e-4;
+    rules.release_curves_below = options_.release_curves_below;
+    rules.penalty = fidelity;
+    return rules;
   }
   void report_target(int round, std::int64_t moves) const {
     const ActiveSet::Worst w = set_.worst(options_.target);

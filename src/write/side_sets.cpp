@@ -48,7 +48,7 @@ class Planner {
     return std::move(plan_);
   }
 
-  // Surfaces between cells have the numbers of the brep, those on the box follow; in the end all get new ones.
+  // Surfaces between cells have the numbers of the brep, those on the box follow, then all get new ones.
   SidePlan variable() {
     const BoxFaces box = trace_box_faces(comm_, cells_, neighbours_, brep_.volume);
     add_inner([&](const InterfaceQuad& q, std::size_t i, bool) {
@@ -168,6 +168,17 @@ class Finder {
     int face = item.at;
     check(descend(item.cell, face, stages_, hex), "a hex of a side set is missing");
     out_.push_back({item.set, hex, face});
+    if (stages_ == 2) add_strips(item);
+  }
+
+  // A surface pillow wraps the buffer hexes of a surface: beside its curves new hexes stand on their side faces and
+  // take a strip of the interface each.
+  void add_strips(const SidePlan::Item& item) {
+    constexpr std::array<int, 4> kStrip{2, 2, 2, 1};  // of the hex on side face 0..3, beside the top of the old hex
+    const GlobalId buffer = kHexFactor * item.cell + item.at + 1;
+    for (int side = 0; side < 4; ++side)
+      if (const LocalId hex = find(kHexFactor * buffer + side + 1); hex != kNone)
+        out_.push_back({item.set, hex, kStrip[static_cast<std::size_t>(side)]});
   }
 
   // Faces of all hexes of a cell on one side of the box.
@@ -183,12 +194,14 @@ class Finder {
   std::vector<SideFace> done() { return std::move(out_); }
 
  private:
+  [[nodiscard]] LocalId find(GlobalId id) const {
+    const auto it = std::lower_bound(mesh_.hex_id.begin(), mesh_.hex_id.end(), id);
+    return it == mesh_.hex_id.end() || *it != id ? kNone : static_cast<LocalId>(it - mesh_.hex_id.begin());
+  }
   bool descend(GlobalId id, int& face, int stages, LocalId& hex) const {
     if (stages == 0) {
-      const auto it = std::lower_bound(mesh_.hex_id.begin(), mesh_.hex_id.end(), id);
-      if (it == mesh_.hex_id.end() || *it != id) return false;
-      hex = static_cast<LocalId>(it - mesh_.hex_id.begin());
-      return true;
+      hex = find(id);
+      return hex != kNone;
     }
     int top = kTop;
     if (descend(kHexFactor * id + face + 1, top, stages - 1, hex)) {

@@ -10,7 +10,8 @@ namespace sculpt {
 
 struct Pillowed {
   HexMesh mesh;
-  std::vector<LocalId> original;  // per node of mesh: the node of the old mesh it is, or kNone for a copy
+  std::vector<LocalId> source;       // per node of mesh: the node of the old mesh that it is or was copied from
+  std::vector<std::uint8_t> copied;  // per node of mesh: 1 for a copy
 };
 
 // Collective. label: per hex the set it belongs to, below 0 = none; drop: per hex, not part of the result (the sets see
@@ -23,7 +24,8 @@ struct Pillowed {
                               std::span<const std::uint8_t> drop, double offset);
 
 // Local. Labels for a surface pillow of a mesh that has a volume pillow: hexes with a face on an interface are labelled
-// by the ordered pair (own material, material across), all others -1.
+// by the pair of materials there, on both sides alike, all others -1. Each interface surface is wrapped as a whole, so
+// that the nodes of its curves receive copies that lie on the surface.
 [[nodiscard]] std::vector<std::int32_t> surface_labels(const HexMesh& mesh);
 
 }  // namespace sculpt

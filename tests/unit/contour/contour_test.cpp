@@ -195,8 +195,8 @@ TEST(PlaceNodes, MovesAPlaneAlongTheGridAlongItsNormal) {
     for (const LocalId n : p.faces.nodes) {
       const Vec3 before = p.before[static_cast<std::size_t>(n)], after = p.cells.position[static_cast<std::size_t>(n)];
       EXPECT_NEAR(after.x, at, 0.1);
-      EXPECT_EQ(after.y, before.y);
-      EXPECT_EQ(after.z, before.z);
+      EXPECT_NEAR(after.y, before.y, 1e-12);
+      EXPECT_NEAR(after.z, before.z, 1e-12);
     }
   }
 }

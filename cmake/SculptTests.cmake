@@ -25,9 +25,6 @@ endfunction()
 function(sculpt_test_program name folder)
   cmake_parse_arguments(arg "" "" "LIBRARIES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
-  if(NOT sources)
-    set(sources ${PROJECT_SOURCE_DIR}/tests/support/main.cpp)
-  endif()
   add_executable(${name} ${sources})
   # The code under test is optimised in its own libraries; compiling the tests should be quick. GCC notes that vector
   # types are passed differently by other compilers, and takes GoogleTest's macros after a plain `if` for a mistake.

@@ -161,6 +161,16 @@ void ActiveSet::refresh_quality() {
   refresh_dirty(first, last);
 }
 
+std::int64_t ActiveSet::mark_folded() {
+  std::int64_t count = 0;
+  for (LocalId h = 0; h < mesh_.size(); ++h) {
+    if (static_cast<double>(quality_[at(h)]) >= kNeverFolds || is_positive_inside(mesh_.corners(h))) continue;
+    quality_[at(h)] = 0;
+    count += mesh_.layer[at(h)] == 0;
+  }
+  return comm().sum(count);
+}
+
 ActiveSet::Worst ActiveSet::worst(double target) const {
   Worst w;
   for (std::size_t h = 0; h < quality_.size(); ++h) {

@@ -37,6 +37,9 @@ class ActiveSet {
   // Smallest corner determinant, in cells, of the hexes below 0.1; 1 when there are none.
   [[nodiscard]] double least_determinant(const Vec3& scale) const;
   void refresh_all_quality();
+  // Gives hexes whose Jacobian is not positive somewhere inside the quality 0 until a node of theirs moves. Returns
+  // their number on all ranks.
+  std::int64_t mark_folded();
 
  private:
   // Marks the nodes of all hexes that have a node of `front` (all marked 1); front becomes the newly marked ones.

@@ -10,6 +10,9 @@
 
 namespace sculpt {
 
+// No hex whose corners are all this good has been seen to fold inside (docs/smoothing.md).
+inline constexpr double kNeverFolds = 0.6;
+
 struct HexQuality {
   std::array<double, 8> scaled_jacobian, shortest_edge;
 };

@@ -11,7 +11,8 @@ namespace sculpt {
 namespace {
 
 constexpr int kUntangleSweeps = 60, kBulkSweeps = 3;
-constexpr int kRaiseAttempts = 3;
+constexpr int kRaiseAttempts = 3, kUnfoldSweeps = 12;
+constexpr double kFolded = 1e-6;     // the quality that marks a folded hex is below this
 constexpr double kFar = 0.02;        // a move that makes the neighbours worth another visit, in cells
 constexpr double kMargin = 0.05;     // hexes this little above the target are raised as well
 
@@ -32,6 +33,7 @@ class Phases {
     untangle();
     improve();
     raise_to_target();
+    unfold();
   }
 
  private:
@@ -138,6 +140,19 @@ class Phases {
         set_.choose(options_.target, 1, false);
         sweep(rules, kFar);
       }
+    }
+  }
+  // The Jacobian can fail inside a hex whose corners are fine: more shape for the nodes of such hexes.
+  void unfold() {
+    double fidelity = options_.fidelity;
+    for (int i = 0; i < kUnfoldSweeps; ++i, fidelity *= 0.5) {
+      const std::int64_t folded = set_.mark_folded();
+      if (folded == 0) return;
+      log_.line("Unfolding Iter: {}, hexes with a Jacobian that is not positive inside: {}", i + 1, folded);
+      StepRules rules = raising_rules(fidelity);
+      rules.power = i % 2 == 0 ? 2 : 4;
+      set_.choose(kFolded, i / 2, false);
+      sweep(rules, kFar);
     }
   }
   [[nodiscard]] StepRules raising_rules(double fidelity) const {

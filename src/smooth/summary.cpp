@@ -10,7 +10,6 @@ namespace sculpt {
 namespace {
 
 constexpr double kUnits = 1099511627776.0;  // 2^40 per unit of quality
-constexpr double kSafe = 0.6;               // no hex with all corners this good has been seen to fold inside
 
 std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
 
@@ -26,7 +25,7 @@ struct Tally {
     counts[1] += q <= 0;
     counts[2] += q < 0.2;
     counts[3] += q < 0.3;
-    counts[4] += q < kSafe && !is_positive_inside(mesh.corners(h));
+    counts[4] += q < kNeverFolds && !is_positive_inside(mesh.corners(h));
     units += static_cast<std::int64_t>(std::llround(q * kUnits));
     carries += units >> 40;
     units &= (std::int64_t{1} << 40) - 1;

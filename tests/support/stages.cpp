@@ -1,7 +1,6 @@
 #include "support/stages.hpp"
 
-#include <algorithm>
-
+#include "pipeline/interface_geometry.hpp"
 #include "sculpt/contour/contour.hpp"
 #include "sculpt/distribute/cartesian.hpp"
 #include "sculpt/pillow/pillow.hpp"
@@ -19,29 +18,10 @@ Pillowed pillow_cells(const Comm& comm, const HexMesh& cells, const std::vector<
   std::vector<std::int32_t> label = cells.material;
   for (std::size_t c = 0; c < label.size(); ++c)
     if (drop[c]) label[c] = -1;
-  Pillowed first = pillow(comm, cells, label, drop, kFirstOffset);
+  const Pillowed first = pillow(comm, cells, label, drop, kFirstOffset);
   if (!surfaces) return first;
   const std::vector<std::uint8_t> keep(first.mesh.hexes.size(), 0);
-  Pillowed second = pillow(comm, first.mesh, surface_labels(first.mesh), keep, kSecondOffset);
-  for (LocalId& n : second.original)
-    if (n != kNone) n = first.original[at(n)];
-  return second;
-}
-
-Geometry geometry_of(const Pillowed& pillowed, const HexMesh& cells, const Interfaces& faces) {
-  const std::vector<Weight> weights = deviation_weights(cells, faces);
-  Geometry g;
-  g.index.assign(pillowed.original.size(), kNone);
-  for (std::size_t n = 0; n < pillowed.original.size(); ++n) {
-    if (pillowed.original[n] == kNone) continue;
-    const LocalId entry = faces.index_of[at(pillowed.original[n])];
-    if (entry == kNone) continue;
-    g.index[n] = static_cast<LocalId>(g.target.size());
-    g.target.push_back(cells.position[at(pillowed.original[n])]);
-    g.weight.push_back(weights[at(entry)]);
-    g.on_curve.push_back(faces.kind[at(entry)] != NodeClass::kSurface);
-  }
-  return g;
+  return stacked(first, pillow(comm, first.mesh, surface_labels(first.mesh), keep, kSecondOffset));
 }
 
 }  // namespace
@@ -64,7 +44,11 @@ Overlay filtered(const Case& input) { return filtered(Comm::self(), input); }
 
 StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions& options) {
   StagesResult result;
-  const auto note = [&](const char* stage, const HexMesh& mesh) { result.checksums.push_back({stage, checksum(comm, mesh)}); };
+  const auto note = [&](const char* stage, const HexMesh& mesh) {
+    result.checksums.push_back({stage, checksum(comm, mesh)});
+    const std::string problem = ghost_problem(mesh);
+    if (!problem.empty() && result.ghosts.empty()) result.ghosts = std::string("after ") + stage + ": " + problem;
+  };
   Overlay o = overlay(comm, input, options.pillow_surfaces ? 3 : 2);
   HexMesh& cells = o.cells;
   note("assign", cells);
@@ -96,7 +80,7 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   note("pillow", pillowed.mesh);
   SmoothOptions volume_smoothing = options.smoothing;
   volume_smoothing.fidelity = input.pure ? 1 : 10;
-  smooth_mesh(pillowed.mesh, geometry_of(pillowed, cells, faces), volume_smoothing, Log());
+  smooth_mesh(pillowed.mesh, interface_geometry(pillowed, cells, faces, deviation_weights(cells, faces)), volume_smoothing, Log());
   note("smooth", pillowed.mesh);
   result.mesh = std::move(pillowed.mesh);
   return result;

@@ -33,7 +33,6 @@ struct StageOptions {
 struct StageChecksum {
   std::string stage;
   std::int64_t checksum;
-  bool operator==(const StageChecksum&) const = default;
 };
 
 struct StagesResult {
@@ -41,6 +40,7 @@ struct StagesResult {
   std::int64_t cells = 0;  // that are part of the mesh, all ranks
   std::int64_t quads = 0;  // interface quads of this rank's cells
   std::vector<StageChecksum> checksums;
+  std::string ghosts;  // where ghosts first differed from what their owners have; empty = nowhere
 };
 
 // Collective.

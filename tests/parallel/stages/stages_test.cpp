@@ -8,23 +8,23 @@
 
 namespace sculpt::test {
 
-void PrintTo(const StageChecksum& c, std::ostream* out) { *out << c.stage << " " << c.checksum; }
-
 namespace {
 
 void expect_same_alone_and_together(const Case& input, const StageOptions& options = {}) {
   const Comm world = Comm::world();
   const StagesResult together = run_stages(world, input, options), alone = run_stages(Comm::self(), input, options);
-  EXPECT_EQ(together.checksums, alone.checksums) << input.name;
+  ASSERT_EQ(together.checksums.size(), alone.checksums.size());
+  for (std::size_t i = 0; i < alone.checksums.size(); ++i)
+    EXPECT_EQ(together.checksums[i].checksum, alone.checksums[i].checksum) << input.name << ", after " << alone.checksums[i].stage;
+  EXPECT_EQ(together.ghosts, "") << input.name;
   EXPECT_EQ(world.sum(owned_hexes(together.mesh)), owned_hexes(alone.mesh)) << input.name;
   EXPECT_EQ(world.sum(together.quads), alone.quads) << input.name;
-  EXPECT_EQ(ghost_problem(together.mesh), "") << input.name;
   const QualitySummary a = summarise(world, together.mesh), b = summarise(Comm::self(), alone.mesh);
   EXPECT_EQ(a.least, b.least);
   EXPECT_EQ(a.average, b.average);
   EXPECT_EQ(a.shortest_edge, b.shortest_edge);
   EXPECT_EQ(a.least_hex, b.least_hex);
-  EXPECT_EQ(a.least_at, b.least_at);
+  EXPECT_TRUE(a.least_at == b.least_at) << input.name;
 }
 
 TEST(SameMesh, OfFewerCellsThanRanksNeed) {

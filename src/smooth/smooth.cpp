@@ -13,7 +13,7 @@ namespace {
 constexpr int kUntangleSweeps = 60, kBulkSweeps = 3;
 constexpr int kRaiseAttempts = 3, kUnfoldSweeps = 12;
 constexpr double kFolded = 1e-6;     // the quality that marks a folded hex is below this
-constexpr double kFar = 0.02;        // a move that makes the neighbours worth another visit, in cells
+constexpr double kFar = 0.05;        // a move that makes the neighbours worth another visit, in cells
 constexpr double kMargin = 0.05;     // hexes this little above the target are raised as well
 
 class Phases {
@@ -58,7 +58,7 @@ class Phases {
     rules.least_move = 1e-5;
     rules.release_curves_below = options_.release_curves_below;
     rules.penalty = options_.fidelity;
-    int layers = 2;
+    int layers = 1;
     double eps = 0;
     for (int i = 0; i < kUntangleSweeps; ++i) {
       const double worst = set_.least_determinant(per_axis_);

@@ -60,7 +60,8 @@ struct Include {
 std::vector<fs::path> sources_below(const std::string& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
-    if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp") files.push_back(entry.path());
+    if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp")
+      files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -76,7 +77,8 @@ std::vector<Include> all_includes() {
       std::string line;
       std::smatch match;
       for (int number = 1; std::getline(file, line); ++number)
-        if (std::regex_search(line, match, include)) found.push_back({fs::relative(path, kRoot), number, room, match[1]});
+        if (std::regex_search(line, match, include))
+          found.push_back({fs::relative(path, kRoot), number, room, match[1]});
     }
   return found;
 }
@@ -95,19 +97,22 @@ TEST(Rooms, DependOneWay) {
   const Rooms rooms = rooms_with_dependencies();
   for (const auto& [room, seen] : rooms)
     for (const std::string& other : seen)
-      if (other != room) EXPECT_FALSE(rooms.at(other).contains(room)) << room << " and " << other << " depend on each other";
+      if (other != room)
+        EXPECT_FALSE(rooms.at(other).contains(room)) << room << " and " << other << " depend on each other";
 }
 
 TEST(Rooms, IncludeOnlyWhatTheyDependOn) {
   const Rooms rooms = rooms_with_dependencies();
-  const std::regex public_header("sculpt/([a-z_]+)/[a-z0-9_]+\\.hpp"), private_header("([a-z_]+)/[a-z0-9_]+\\.hpp");
+  const std::regex public_header("sculpt/([a-z_]+)/[a-z0-9_]+\\.hpp"),
+      private_header("([a-z_]+)/[a-z0-9_]+\\.hpp");
   std::smatch match;
   int compared = 0;
   for (const Include& i : all_includes()) {
     if (!rooms.contains(i.room)) continue;  // told by AreAllListed
     if (std::regex_match(i.header, match, public_header)) {
       ++compared;
-      EXPECT_TRUE(rooms.at(i.room).contains(match[1])) << place(i) << ": not a dependency of " << i.room << " in src/CMakeLists.txt";
+      EXPECT_TRUE(rooms.at(i.room).contains(match[1]))
+          << place(i) << ": not a dependency of " << i.room << " in src/CMakeLists.txt";
     } else if (std::regex_match(i.header, match, private_header) && rooms.contains(match[1])) {
       ++compared;
       EXPECT_EQ(match[1], i.room) << place(i) << ": private header of another room";
@@ -126,14 +131,16 @@ TEST(Rooms, WrapTheirLibraries) {
   }
 }
 
-// What mpi.h offers reaches other rooms through Comm only; what the launcher's main() may call is to end the job.
+// What mpi.h offers reaches other rooms through Comm only; what the launcher's main() may call is to end the
+// job.
 TEST(Rooms, LeaveMessagesToPar) {
   const std::regex call(R"(\bMPI_[A-Z][a-z]\w*)");
   for (const fs::path& path : sources_below("src")) {
     const std::string room = fs::relative(path, kRoot / "src").begin()->string(), text = text_of(path);
     if (room == "par") continue;
     for (std::sregex_iterator c(text.begin(), text.end(), call), end; c != end; ++c)
-      EXPECT_TRUE(room == "pipeline" && c->str() == "MPI_Abort") << fs::relative(path, kRoot) << ": " << c->str();
+      EXPECT_TRUE(room == "pipeline" && c->str() == "MPI_Abort")
+          << fs::relative(path, kRoot) << ": " << c->str();
   }
 }
 

@@ -20,7 +20,8 @@ void add_two(Fractions& f, double of_one) {
 
 double cube(double x) { return x * x * x; }
 
-// Part of the unit cube at `corner` with n.x > distance: the tetrahedron formula, summed over the corners of the cube.
+// Part of the unit cube at `corner` with n.x > distance: the tetrahedron formula, summed over the corners of
+// the cube.
 double part_above(const Vec3& corner, Vec3 n, double distance) {
   double d = distance - dot(n, corner);
   for (std::size_t a = 0; a < 3; ++a)
@@ -62,7 +63,8 @@ double scatter_unit(std::uint64_t seed, std::uint64_t item) {
 
 Case voxels(const std::string& name, const Index3& cells, std::int32_t materials,
             const std::function<std::int32_t(const Index3&)>& material) {
-  return {name, unit_grid(cells), materials, [material](const Index3& c, Fractions& f) { f.add(material(c), 1); }, true};
+  return {name, unit_grid(cells), materials,
+          [material](const Index3& c, Fractions& f) { f.add(material(c), 1); }, true};
 }
 
 Case voxels(const Index3& cells, const std::vector<std::int32_t>& material) {
@@ -88,7 +90,8 @@ Case grains(const Index3& cells, int grains, std::int32_t materials, std::uint64
                       scatter_unit(seed, item + 2) * static_cast<double>(cells[2])});
   }
   return voxels(sized("grains", cells, seed), cells, materials, [=](const Index3& c) {
-    const Vec3 at{static_cast<double>(c[0]) + 0.5, static_cast<double>(c[1]) + 0.5, static_cast<double>(c[2]) + 0.5};
+    const Vec3 at{static_cast<double>(c[0]) + 0.5, static_cast<double>(c[1]) + 0.5,
+                  static_cast<double>(c[2]) + 0.5};
     const auto nearest = std::min_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
       return dot(a - at, a - at) < dot(b - at, b - at);
     });
@@ -104,13 +107,16 @@ Case two_phase_fractions(const Index3& cells, std::uint64_t seed) {
 }
 
 Case ball(const Index3& cells, const Vec3& centre, double radius) {
-  return {"ball", unit_grid(cells), 2, [=](const Index3& c, Fractions& f) {
+  const std::string name = fmt::format("ball {}x{}x{} around {} {} {}, radius {}", cells[0], cells[1],
+                                       cells[2], centre.x, centre.y, centre.z, radius);
+  return {name, unit_grid(cells), 2, [=](const Index3& c, Fractions& f) {
             constexpr int kPoints = 8;
             int inside = 0;
             for (int s = 0; s < kPoints * kPoints * kPoints; ++s) {
               const std::array<int, 3> p{s % kPoints, s / kPoints % kPoints, s / kPoints / kPoints};
               Vec3 at;
-              for (std::size_t d = 0; d < 3; ++d) at[d] = static_cast<double>(c[d]) + (p[d] + 0.5) / kPoints - centre[d];
+              for (std::size_t d = 0; d < 3; ++d)
+                at[d] = static_cast<double>(c[d]) + (p[d] + 0.5) / kPoints - centre[d];
               inside += dot(at, at) < radius * radius;
             }
             add_two(f, static_cast<double>(inside) / (kPoints * kPoints * kPoints));
@@ -118,10 +124,11 @@ Case ball(const Index3& cells, const Vec3& centre, double radius) {
 }
 
 Case half_space(const Index3& cells, const Vec3& normal, double distance) {
-  return {"half space", unit_grid(cells), 2, [=](const Index3& c, Fractions& f) {
-            const Vec3 corner{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
-            add_two(f, part_above(corner, normal, distance));
-          }};
+  return {
+      "half space", unit_grid(cells), 2, [=](const Index3& c, Fractions& f) {
+        const Vec3 corner{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
+        add_two(f, part_above(corner, normal, distance));
+      }};
 }
 
 }  // namespace sculpt::test

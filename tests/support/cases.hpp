@@ -1,6 +1,6 @@
 #pragma once
-// Made-up inputs: a grid and, for every cell, fractions that depend on the cell's global indices and a seed only, so
-// that any rank can ask for any box.
+// Made-up inputs: a grid and, for every cell, fractions that depend on the cell's global indices and a seed
+// only, so that any rank can ask for any box.
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -40,7 +40,8 @@ struct Case {
 [[nodiscard]] Case two_phase_fractions(const Index3& cells, std::uint64_t seed);
 // A ball of material 1 in material 0, in cells; fractions from 8^3 points per cell.
 [[nodiscard]] Case ball(const Index3& cells, const Vec3& centre, double radius);
-// Material 1 where normal . x > distance, exact fractions. Unit cells; no component of the unit normal near 0.
+// Material 1 where normal . x > distance, exact fractions. Unit cells; no component of the unit normal near
+// 0.
 [[nodiscard]] Case half_space(const Index3& cells, const Vec3& normal, double distance);
 
 }  // namespace sculpt::test

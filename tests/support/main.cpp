@@ -1,5 +1,5 @@
-// main() of all test programs: starts MPI, runs the tests on every rank, and fails when they fail on any rank. Rank 0
-// speaks as GoogleTest does; the other ranks print their failures only, with their rank.
+// main() of all test programs: starts MPI, runs the tests on every rank, and fails when they fail on any
+// rank. Rank 0 speaks as GoogleTest does; the other ranks print their failures only, with their rank.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -15,11 +15,14 @@ class FailuresOnly : public testing::EmptyTestEventListener {
   explicit FailuresOnly(int rank) : rank_(rank) {}
 
  private:
-  void OnTestStart(const testing::TestInfo& info) override { name_ = fmt::format("{}.{}", info.test_suite_name(), info.name()); }
+  void OnTestStart(const testing::TestInfo& info) override {
+    name_ = fmt::format("{}.{}", info.test_suite_name(), info.name());
+  }
   void OnTestPartResult(const testing::TestPartResult& result) override {
     if (!result.failed()) return;
-    fmt::print("[rank {}] {}: {}:{}: {}\n", rank_, name_, result.file_name() != nullptr ? result.file_name() : "unknown file",
-               result.line_number(), result.message());
+    fmt::print("[rank {}] {}: {}:{}: {}\n", rank_, name_,
+               result.file_name() != nullptr ? result.file_name() : "unknown file", result.line_number(),
+               result.message());
     std::fflush(stdout);
   }
 
@@ -40,7 +43,8 @@ int run_on_all_ranks(const Comm& comm) {
     return static_cast<int>(comm.max(std::int64_t{RUN_ALL_TESTS()}));
   } catch (...) {
     const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    fmt::print("[rank {}] {}: unexpected exception: {}\n", comm.rank(), test != nullptr ? test->name() : "", current_exception_text());
+    fmt::print("[rank {}] {}: unexpected exception: {}\n", comm.rank(), test != nullptr ? test->name() : "",
+               current_exception_text());
     std::fflush(stdout);
     MPI_Abort(comm.handle(), 1);
     return 1;

@@ -56,13 +56,16 @@ std::string node_problem(const HexMesh& mesh, int pillows) {
     for (std::size_t a = 0; a < 8; ++a)
       for (std::size_t b = 0; b < a; ++b) {
         if (hex[a] == hex[b]) return fmt::format("a hex has node {} twice", mesh.node_id[at(hex[a])]);
-        if (mesh.colour[at(hex[a])] == mesh.colour[at(hex[b])] && mesh.node_id[at(hex[a])] / copies != mesh.node_id[at(hex[b])] / copies)
-          return fmt::format("nodes {} and {} of one hex have one colour", mesh.node_id[at(hex[a])], mesh.node_id[at(hex[b])]);
+        if (mesh.colour[at(hex[a])] == mesh.colour[at(hex[b])] &&
+            mesh.node_id[at(hex[a])] / copies != mesh.node_id[at(hex[b])] / copies)
+          return fmt::format("nodes {} and {} of one hex have one colour", mesh.node_id[at(hex[a])],
+                             mesh.node_id[at(hex[b])]);
       }
   }
   for (std::size_t n = 0; n < used.size(); ++n)
     if (!used[n]) return fmt::format("node {} is in no hex", mesh.node_id[n]);
-  if (std::adjacent_find(mesh.node_id.begin(), mesh.node_id.end(), std::greater_equal<>()) != mesh.node_id.end())
+  if (std::adjacent_find(mesh.node_id.begin(), mesh.node_id.end(), std::greater_equal<>()) !=
+      mesh.node_id.end())
     return "node ids do not ascend";
   if (std::adjacent_find(mesh.hex_id.begin(), mesh.hex_id.end(), std::greater_equal<>()) != mesh.hex_id.end())
     return "hex ids do not ascend";
@@ -90,7 +93,8 @@ std::string conformity_problem(const HexMesh& mesh, int pillows) {
   }
   for (const auto& [edge, count] : boundary_edges)
     if (count != 0)
-      return fmt::format("the boundary is open at the edge {} {}", mesh.node_id[at(edge.first)], mesh.node_id[at(edge.second)]);
+      return fmt::format("the boundary is open at the edge {} {}", mesh.node_id[at(edge.first)],
+                         mesh.node_id[at(edge.second)]);
   return {};
 }
 
@@ -100,7 +104,8 @@ std::string boundary_problem(const HexMesh& mesh) {
     const bool single = i + 1 == faces.size() || faces[i + 1].sorted != faces[i].sorted;
     const bool on_box = face_sides(mesh, faces[i].hex, faces[i].face) != 0;
     if (single && !on_box) return face_text(mesh, faces[i]) + " has one hex inside the box";
-    // A hex of an expansion-free one-cell corner may have all nodes of an inner face on one side only if it is flat.
+    // A hex of an expansion-free one-cell corner may have all nodes of an inner face on one side only if it
+    // is flat.
     if (!single && on_box) return face_text(mesh, faces[i]) + " lies on the box and has two hexes";
     i += single ? 1 : 2;
   }
@@ -113,7 +118,8 @@ std::string box_problem(const HexMesh& mesh, const Grid& grid) {
       const double x = mesh.position[n][d], lo = grid.planes[d].front(), hi = grid.planes[d].back();
       const unsigned sides = mesh.box_sides[n] >> (2 * d) & 3U;
       const bool right = sides == 0 ? x > lo && x < hi : x == (sides == 1 ? lo : hi);
-      if (!right) return fmt::format("node {}: coordinate {} on axis {} with sides {}", mesh.node_id[n], x, d, sides);
+      if (!right)
+        return fmt::format("node {}: coordinate {} on axis {} with sides {}", mesh.node_id[n], x, d, sides);
     }
   return {};
 }
@@ -124,10 +130,12 @@ std::string ghost_problem(const HexMesh& mesh) {
   std::vector<Vec3> position = mesh.position;
   mesh.node_exchange.copy_to_ghosts(position);
   for (std::size_t n = 0; n < position.size(); ++n)
-    if (position[n] != mesh.position[n]) problem = fmt::format("rank {}: ghost node {} stands elsewhere", comm.rank(), mesh.node_id[n]);
+    if (position[n] != mesh.position[n])
+      problem = fmt::format("rank {}: ghost node {} stands elsewhere", comm.rank(), mesh.node_id[n]);
   std::vector<std::int32_t> material = mesh.material;
   mesh.hex_exchange.copy_to_ghosts(material);
-  if (material != mesh.material) problem = fmt::format("rank {}: a ghost hex has another material", comm.rank());
+  if (material != mesh.material)
+    problem = fmt::format("rank {}: a ghost hex has another material", comm.rank());
   using IdHex = std::array<GlobalId, 8>;
   std::vector<IdHex> nodes(mesh.hexes.size());
   for (std::size_t h = 0; h < nodes.size(); ++h)
@@ -136,9 +144,11 @@ std::string ghost_problem(const HexMesh& mesh) {
   mesh.hex_exchange.copy_to_ghosts(nodes);
   for (std::size_t h = 0; h < nodes.size(); ++h) {
     if (nodes[h] != mine[h])
-      problem = fmt::format("rank {}: ghost hex {} of layer {} has other nodes", comm.rank(), mesh.hex_id[h], mesh.layer[h]);
+      problem = fmt::format("rank {}: ghost hex {} of layer {} has other nodes", comm.rank(), mesh.hex_id[h],
+                            mesh.layer[h]);
     if ((mesh.layer[h] == 0) != (mesh.hex_owner[h] == comm.rank()) || mesh.layer[h] > mesh.ghost_layers)
-      problem = fmt::format("rank {}: hex {} of rank {} in layer {}", comm.rank(), mesh.hex_id[h], mesh.hex_owner[h], mesh.layer[h]);
+      problem = fmt::format("rank {}: hex {} of rank {} in layer {}", comm.rank(), mesh.hex_id[h],
+                            mesh.hex_owner[h], mesh.layer[h]);
   }
   const auto first = static_cast<int>(comm.min(std::int64_t{problem.empty() ? comm.size() : comm.rank()}));
   return first == comm.size() ? "" : comm.broadcast(problem, first);
@@ -153,7 +163,8 @@ double volume(const Grid& grid) {
 std::vector<double> volumes(const HexMesh& mesh, std::int32_t materials) {
   std::vector<double> sum(static_cast<std::size_t>(materials), 0);
   for (LocalId h = 0; h < mesh.size(); ++h)
-    if (mesh.layer[at(h)] == 0) sum[static_cast<std::size_t>(mesh.material[at(h)])] += hex_volume(mesh.corners(h));
+    if (mesh.layer[at(h)] == 0)
+      sum[static_cast<std::size_t>(mesh.material[at(h)])] += hex_volume(mesh.corners(h));
   return sum;
 }
 
@@ -171,13 +182,16 @@ double least_scaled_jacobian(const HexMesh& mesh) {
   return least;
 }
 
-std::int64_t owned_hexes(const HexMesh& mesh) { return std::count(mesh.layer.begin(), mesh.layer.end(), std::uint8_t{0}); }
+std::int64_t owned_hexes(const HexMesh& mesh) {
+  return std::count(mesh.layer.begin(), mesh.layer.end(), std::uint8_t{0});
+}
 
 std::int64_t interface_faces(const HexMesh& mesh) {
   const std::vector<Face> faces = sorted_faces(mesh);
   std::int64_t count = 0;
   for (std::size_t i = 0; i + 1 < faces.size(); ++i)
-    count += faces[i].sorted == faces[i + 1].sorted && mesh.material[at(faces[i].hex)] != mesh.material[at(faces[i + 1].hex)];
+    count += faces[i].sorted == faces[i + 1].sorted &&
+             mesh.material[at(faces[i].hex)] != mesh.material[at(faces[i + 1].hex)];
   return count;
 }
 

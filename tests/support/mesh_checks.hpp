@@ -1,6 +1,6 @@
 #pragma once
-// What a finished mesh must satisfy (docs/architecture.md, invariants). Each check answers with the first problem in
-// words; empty = none, so that EXPECT_EQ(problem(...), "") shows it.
+// What a finished mesh must satisfy (docs/architecture.md, invariants). Each check answers with the first
+// problem in words; empty = none, so that EXPECT_EQ(problem(...), "") shows it.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,9 +10,9 @@
 
 namespace sculpt::test {
 
-// For the mesh of one rank alone: every face has one or two hexes that see it from opposite sides, the boundary is
-// closed, no node is unused, ids ascend, nodes of one colour share no hex unless they stem from one grid node.
-// pillows: how often the mesh was pillowed.
+// For the mesh of one rank alone: every face has one or two hexes that see it from opposite sides, the
+// boundary is closed, no node is unused, ids ascend, nodes of one colour share no hex unless they stem from
+// one grid node. pillows: how often the mesh was pillowed.
 [[nodiscard]] std::string conformity_problem(const HexMesh& mesh, int pillows = 1);
 // For the mesh of a box of one rank alone: faces with one hex are exactly the faces on the sides of the box.
 [[nodiscard]] std::string boundary_problem(const HexMesh& mesh);
@@ -30,8 +30,8 @@ namespace sculpt::test {
 // Pairs of hexes of different materials that share a face, by nodes; one rank alone.
 [[nodiscard]] std::int64_t interface_faces(const HexMesh& mesh);
 
-// Collective: a number made from the ids, nodes, materials and coordinates (to the last bit) of the owned hexes of all
-// ranks, whichever rank owns which.
+// Collective: a number made from the ids, nodes, materials and coordinates (to the last bit) of the owned
+// hexes of all ranks, whichever rank owns which.
 [[nodiscard]] std::int64_t checksum(const Comm& comm, const HexMesh& mesh);
 
 }  // namespace sculpt::test

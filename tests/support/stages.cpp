@@ -14,7 +14,8 @@ constexpr double kFirstOffset = 0.3, kSecondOffset = 0.5;  // those of the progr
 
 std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
 
-Pillowed pillow_cells(const Comm& comm, const HexMesh& cells, const std::vector<std::uint8_t>& drop, bool surfaces) {
+Pillowed pillow_cells(const Comm& comm, const HexMesh& cells, const std::vector<std::uint8_t>& drop,
+                      bool surfaces) {
   std::vector<std::int32_t> label = cells.material;
   for (std::size_t c = 0; c < label.size(); ++c)
     if (drop[c]) label[c] = -1;
@@ -28,7 +29,8 @@ Pillowed pillow_cells(const Comm& comm, const HexMesh& cells, const std::vector<
 
 Overlay overlay(const Comm& comm, const Case& input, int layers) {
   const CartesianParts parts = cut_grid(input.grid.cells, comm.size(), {0, 0, 0});
-  Overlay o{lattice_mesh(comm, input.grid, parts, layers), fractions_in(input, parts.ghosted(comm.rank(), layers))};
+  Overlay o{lattice_mesh(comm, input.grid, parts, layers),
+            fractions_in(input, parts.ghosted(comm.rank(), layers))};
   assign_materials(o.cells, o.fractions, face_neighbours(o.cells));
   return o;
 }
@@ -47,7 +49,8 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   const auto note = [&](const char* stage, const HexMesh& mesh) {
     result.checksums.push_back({stage, checksum(comm, mesh)});
     const std::string problem = ghost_problem(mesh);
-    if (!problem.empty() && result.ghosts.empty()) result.ghosts = std::string("after ") + stage + ": " + problem;
+    if (!problem.empty() && result.ghosts.empty())
+      result.ghosts = std::string("after ") + stage + ": " + problem;
   };
   Overlay o = overlay(comm, input, options.pillow_surfaces ? 3 : 2);
   HexMesh& cells = o.cells;
@@ -80,7 +83,8 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   note("pillow", pillowed.mesh);
   SmoothOptions volume_smoothing = options.smoothing;
   volume_smoothing.fidelity = input.pure ? 1 : 10;
-  smooth_mesh(pillowed.mesh, interface_geometry(pillowed, cells, faces, deviation_weights(cells, faces)), volume_smoothing, Log());
+  smooth_mesh(pillowed.mesh, interface_geometry(pillowed, cells, faces, deviation_weights(cells, faces)),
+              volume_smoothing, Log());
   note("smooth", pillowed.mesh);
   result.mesh = std::move(pillowed.mesh);
   return result;

@@ -1,5 +1,6 @@
 #pragma once
-// The stages from the overlay grid to the smooth mesh, as the program runs them, on made-up input and in memory.
+// The stages from the overlay grid to the smooth mesh, as the program runs them, on made-up input and in
+// memory.
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@
 
 namespace sculpt::test {
 
-// The cells of this rank with ghosts, their fractions and the materials with most of each cell (not filtered).
+// The cells of this rank with ghosts, their fractions and the materials with most of each cell (not
+// filtered).
 struct Overlay {
   HexMesh cells;
   Fractions fractions;
@@ -26,7 +28,7 @@ struct Overlay {
 struct StageOptions {
   bool pillow_surfaces = false;
   std::int32_t void_material = -1;  // left out of the mesh
-  InterfaceSmoothing interfaces;  // whether to project is decided by the input, as the program does
+  InterfaceSmoothing interfaces;    // whether to project is decided by the input, as the program does
   SmoothOptions smoothing;
 };
 

@@ -30,7 +30,8 @@ TEST(Reductions, CoverAllRanks) {
 TEST(Broadcast, ComesFromAnyRoot) {
   const Comm comm = Comm::world();
   for (int root = 0; root < comm.size(); ++root) {
-    const std::string mine = comm.rank() == root ? std::string(1000, 'a') + std::to_string(root) : "something else";
+    const std::string mine =
+        comm.rank() == root ? std::string(1000, 'a') + std::to_string(root) : "something else";
     EXPECT_EQ(comm.broadcast(mine, root), std::string(1000, 'a') + std::to_string(root));
     EXPECT_EQ(comm.broadcast(comm.rank() == root ? "" : "not this", root), "");
     std::vector<double> items(comm.rank() == root ? 3 : 0, 0.5);
@@ -41,7 +42,8 @@ TEST(Broadcast, ComesFromAnyRoot) {
 
 TEST(Concatenate, KeepsTheOrderOfRanks) {
   const Comm comm = Comm::world();
-  const std::vector<int> mine(static_cast<std::size_t>(comm.rank() % 3), comm.rank());  // ranks 0, 3, 6 have nothing
+  const std::vector<int> mine(static_cast<std::size_t>(comm.rank() % 3),
+                              comm.rank());  // ranks 0, 3, 6 have nothing
   std::vector<int> expected;
   for (int r = 0; r < comm.size(); ++r) expected.insert(expected.end(), static_cast<std::size_t>(r % 3), r);
   EXPECT_EQ(comm.concatenate(mine), expected);
@@ -59,7 +61,8 @@ TEST(AllToAll, DeliversUnequalPieces) {
   const auto from = comm.all_to_all(to);
   ASSERT_EQ(from.size(), n);
   for (std::size_t r = 0; r < n; ++r)
-    EXPECT_EQ(from[r], std::vector<std::int64_t>(static_cast<std::size_t>(comm.rank()), static_cast<std::int64_t>(r) * 100 + comm.rank()));
+    EXPECT_EQ(from[r], std::vector<std::int64_t>(static_cast<std::size_t>(comm.rank()),
+                                                 static_cast<std::int64_t>(r) * 100 + comm.rank()));
 }
 
 // What rank `failing` alone says must reach all.
@@ -76,9 +79,10 @@ TEST(Collectively, TellsAllRanksWhatOneRankFound) {
   const Comm comm = Comm::world();
   for (int failing = 0; failing < comm.size(); ++failing) {
     const std::string text = "file.7: line 3, rank " + std::to_string(failing);
-    EXPECT_EQ(agreed(comm, [&](int rank) {
-                if (rank == failing) throw Error(text);
-              }),
+    EXPECT_EQ(agreed(comm,
+                     [&](int rank) {
+                       if (rank == failing) throw Error(text);
+                     }),
               text);
   }
   EXPECT_EQ(agreed(comm, [](int) {}), "");
@@ -97,9 +101,18 @@ TEST(Collectively, TakesTheLowestFailingRank) {
 TEST(Collectively, KnowsExceptionsOfAnyKind) {
   const Comm comm = Comm::world();
   const int last = comm.size() - 1;
-  EXPECT_EQ(agreed(comm, [&](int rank) { if (rank == last) throw 3; }), "working: unknown failure");
-  EXPECT_EQ(agreed(comm, [&](int rank) { if (rank == last) throw std::bad_alloc(); }), "working: out of memory");
-  EXPECT_EQ(agreed(comm, [&](int rank) { check(rank != last, "a promise"); }), "working: internal error: a promise");
+  EXPECT_EQ(agreed(comm,
+                   [&](int rank) {
+                     if (rank == last) throw 3;
+                   }),
+            "working: unknown failure");
+  EXPECT_EQ(agreed(comm,
+                   [&](int rank) {
+                     if (rank == last) throw std::bad_alloc();
+                   }),
+            "working: out of memory");
+  EXPECT_EQ(agreed(comm, [&](int rank) { check(rank != last, "a promise"); }),
+            "working: internal error: a promise");
 }
 
 }  // namespace

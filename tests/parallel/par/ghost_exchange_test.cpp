@@ -44,7 +44,8 @@ TEST(GhostExchange, CarriesStructures) {
   };
   std::vector<Item> values(row.ids.size(), Item{-1, {}});
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (row.owned(i)) values[i] = {row.ids[i], {'a', 'b', 'c', 'd', static_cast<char>('0' + row.comm.rank())}};
+    if (row.owned(i))
+      values[i] = {row.ids[i], {'a', 'b', 'c', 'd', static_cast<char>('0' + row.comm.rank())}};
   row.exchange.copy_to_ghosts(values);
   for (std::size_t i = 0; i < values.size(); ++i) {
     EXPECT_EQ(values[i].id, row.ids[i]);
@@ -62,8 +63,9 @@ TEST(GhostExchange, SendsOnlyWhatChanged) {
     changed[i] = row.ids[i] / 10 % 2 == 0;
   }
   std::vector<GlobalId> arrived;
-  row.exchange.copy_changed(std::span<GlobalId>(values), std::span<std::uint8_t>(changed),
-                            [&](LocalId ghost) { arrived.push_back(row.ids[static_cast<std::size_t>(ghost)]); });
+  row.exchange.copy_changed(
+      std::span<GlobalId>(values), std::span<std::uint8_t>(changed),
+      [&](LocalId ghost) { arrived.push_back(row.ids[static_cast<std::size_t>(ghost)]); });
   std::vector<GlobalId> expected;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const bool told = row.ids[i] / 10 % 2 == 0;
@@ -79,7 +81,8 @@ TEST(GhostExchange, SendsOnlyWhatChanged) {
 TEST(GhostExchange, OwnersTakeTheLeastOfAllCopies) {
   const Row row(Comm::world());
   std::vector<int> values(row.ids.size());
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = 100 - row.comm.rank();  // the last rank that has a copy wins
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = 100 - row.comm.rank();  // the last rank that has a copy wins
   row.exchange.reduce_to_owners(std::span<int>(values), [](int a, int b) { return std::min(a, b); });
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!row.owned(i)) continue;
@@ -94,7 +97,8 @@ TEST(GhostExchange, RecordsOfUnequalLength) {
   const Row row(Comm::world());
   std::vector<std::string> got(row.ids.size());
   row.exchange.send_records(
-      [&](LocalId item, std::vector<char>& bytes) {  // entity n is worth n % 4 letters; none: no record at all
+      [&](LocalId item,
+          std::vector<char>& bytes) {  // entity n is worth n % 4 letters; none: no record at all
         const auto letters = static_cast<std::int32_t>(row.ids[static_cast<std::size_t>(item)] / 10 % 4);
         if (letters == 0) return;
         G::append(bytes, letters);
@@ -107,7 +111,9 @@ TEST(GhostExchange, RecordsOfUnequalLength) {
         return at + letters;
       });
   for (std::size_t i = 0; i < got.size(); ++i)
-    EXPECT_EQ(got[i], row.owned(i) ? "" : std::string("abcd").substr(0, static_cast<std::size_t>(row.ids[i] / 10 % 4)));
+    EXPECT_EQ(got[i], row.owned(i)
+                          ? ""
+                          : std::string("abcd").substr(0, static_cast<std::size_t>(row.ids[i] / 10 % 4)));
 }
 
 TEST(GhostExchange, RanksMayHaveNothing) {

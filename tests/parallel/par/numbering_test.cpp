@@ -12,7 +12,8 @@ namespace {
 std::vector<GlobalId> random_keys(std::size_t count, GlobalId most) {
   std::mt19937_64 random(42);
   std::vector<GlobalId> keys;
-  for (std::size_t i = 0; i < count; ++i) keys.push_back(std::uniform_int_distribution<GlobalId>(0, most)(random));
+  for (std::size_t i = 0; i < count; ++i)
+    keys.push_back(std::uniform_int_distribution<GlobalId>(0, most)(random));
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   return keys;
@@ -37,7 +38,8 @@ TEST(DenseNumbers, AreThoseOfOneRank) {
     std::vector<GlobalId> mine;  // every key on its rank and the next, some on all
     for (std::size_t i = 0; i < all.size(); ++i) {
       const auto home = static_cast<int>(i % static_cast<std::size_t>(comm.size()));
-      if (home == comm.rank() || (home + 1) % comm.size() == comm.rank() || i % 10 == 0) mine.push_back(all[i]);
+      if (home == comm.rank() || (home + 1) % comm.size() == comm.rank() || i % 10 == 0)
+        mine.push_back(all[i]);
     }
     expect_dense(comm, all, mine);
   }
@@ -55,7 +57,9 @@ TEST(GroupedNumbers, RunThroughTheGroupsOneAfterAnother) {
   const Comm comm = Comm::world();
   constexpr std::size_t kGroups = 4;
   const std::vector<GlobalId> all = random_keys(300, GlobalId{1} << 50);
-  const auto group_of = [](GlobalId key) { return static_cast<std::int32_t>(key % 3); };  // group 3 stays empty
+  const auto group_of = [](GlobalId key) {
+    return static_cast<std::int32_t>(key % 3);
+  };  // group 3 stays empty
   std::vector<GlobalId> expected(all.size());
   GlobalId next = 0;
   std::vector<std::int64_t> expected_counts(kGroups, 0);

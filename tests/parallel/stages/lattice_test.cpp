@@ -10,7 +10,10 @@ namespace sculpt::test {
 namespace {
 
 HexMesh lattice(const Comm& comm, const Index3& cells, int layers) {
-  return overlay(comm, voxels("lattice", cells, 5, [](const Index3& c) { return static_cast<std::int32_t>((c[0] + c[1] + c[2]) % 5); }), layers)
+  return overlay(comm,
+                 voxels("lattice", cells, 5,
+                        [](const Index3& c) { return static_cast<std::int32_t>((c[0] + c[1] + c[2]) % 5); }),
+                 layers)
       .cells;
 }
 
@@ -37,7 +40,8 @@ TEST(LatticeMesh, OwnersOfNodesHaveAHexThere) {
     for (std::size_t h = 0; h < mesh.hexes.size(); ++h)
       if (mesh.layer[h] == 0) of_owned_hexes.insert(mesh.hexes[h].begin(), mesh.hexes[h].end());
     for (LocalId n = 0; n < mesh.nodes(); ++n)
-      if (mesh.node_owner[static_cast<std::size_t>(n)] == comm.rank()) EXPECT_TRUE(of_owned_hexes.contains(n));
+      if (mesh.node_owner[static_cast<std::size_t>(n)] == comm.rank())
+        EXPECT_TRUE(of_owned_hexes.contains(n));
   }
 }
 

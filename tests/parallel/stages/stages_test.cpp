@@ -1,5 +1,5 @@
-// The same mesh, to the last bit, whoever owns which cells: checksums after every stage, all ranks together against each
-// rank on its own.
+// The same mesh, to the last bit, whoever owns which cells: checksums after every stage, all ranks together
+// against each rank on its own.
 #include <gtest/gtest.h>
 
 #include "sculpt/mesh/adjacency.hpp"
@@ -12,10 +12,12 @@ namespace {
 
 void expect_same_alone_and_together(const Case& input, const StageOptions& options = {}) {
   const Comm world = Comm::world();
-  const StagesResult together = run_stages(world, input, options), alone = run_stages(Comm::self(), input, options);
+  const StagesResult together = run_stages(world, input, options),
+                     alone = run_stages(Comm::self(), input, options);
   ASSERT_EQ(together.checksums.size(), alone.checksums.size());
   for (std::size_t i = 0; i < alone.checksums.size(); ++i)
-    EXPECT_EQ(together.checksums[i].checksum, alone.checksums[i].checksum) << input.name << ", after " << alone.checksums[i].stage;
+    EXPECT_EQ(together.checksums[i].checksum, alone.checksums[i].checksum)
+        << input.name << ", after " << alone.checksums[i].stage;
   EXPECT_EQ(together.ghosts, "") << input.name;
   EXPECT_EQ(world.sum(owned_hexes(together.mesh)), owned_hexes(alone.mesh)) << input.name;
   EXPECT_EQ(world.sum(together.quads), alone.quads) << input.name;
@@ -89,7 +91,8 @@ TEST(ResolveNonManifold, ReportsTheSameAloneAndTogether) {
     EXPECT_EQ(a.changed_cells, b.changed_cells) << input.name;
     EXPECT_EQ(a.passes, b.passes) << input.name;
     EXPECT_EQ(checksum(world, together.cells), checksum(Comm::self(), alone.cells)) << input.name;
-    EXPECT_TRUE(interfaces_are_manifold(together.cells, face_neighbours(together.cells), NodeHexes(together.cells)));
+    EXPECT_TRUE(
+        interfaces_are_manifold(together.cells, face_neighbours(together.cells), NodeHexes(together.cells)));
     EXPECT_EQ(ghost_problem(together.cells), "") << input.name;
   }
 }

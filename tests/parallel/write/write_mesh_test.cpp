@@ -1,5 +1,5 @@
-// What the rank files say together: every hex and node once, tables between ranks that fit, the same joined file for
-// any number of ranks.
+// What the rank files say together: every hex and node once, tables between ranks that fit, the same joined
+// file for any number of ranks.
 #include "sculpt/write/write_mesh.hpp"
 
 #include <gtest/gtest.h>
@@ -155,7 +155,8 @@ TEST(WriteMesh, MapsBetweenRanksFit) {
   for (int r = 0; r < static_cast<int>(w.files.size()); ++r) {
     const RankMesh& file = w.files[static_cast<std::size_t>(r)];
     std::vector<std::int32_t> connectivity;
-    for (const auto& block : file.blocks) connectivity.insert(connectivity.end(), block.nodes.begin(), block.nodes.end());
+    for (const auto& block : file.blocks)
+      connectivity.insert(connectivity.end(), block.nodes.begin(), block.nodes.end());
     for (const auto& map : file.node_maps)
       for (const std::int32_t n : map.nodes) {
         nodes[{r, map.rank}].push_back(file.node_id[static_cast<std::size_t>(n) - 1]);
@@ -165,18 +166,21 @@ TEST(WriteMesh, MapsBetweenRanksFit) {
       for (std::size_t i = 0; i < map.element.size(); ++i) {
         std::set<std::int64_t> face;
         for (const int c : kFaces[static_cast<std::size_t>(map.side[i] - 1)]) {
-          const std::size_t at = 8 * static_cast<std::size_t>(map.element[i] - 1) + static_cast<std::size_t>(c);
+          const std::size_t at =
+              8 * static_cast<std::size_t>(map.element[i] - 1) + static_cast<std::size_t>(c);
           face.insert(file.node_id[static_cast<std::size_t>(connectivity[at]) - 1]);
         }
         EXPECT_TRUE((faces[{r, map.rank}].insert(face).second));
       }
-    if (w.files.size() > 1) EXPECT_EQ(file.internal_nodes + file.border_nodes, static_cast<std::int32_t>(file.node_id.size()));
+    if (w.files.size() > 1)
+      EXPECT_EQ(file.internal_nodes + file.border_nodes, static_cast<std::int32_t>(file.node_id.size()));
   }
   for (const auto& [pair, list] : nodes) {
     EXPECT_EQ(list, (nodes[{pair.second, pair.first}])) << pair.first << " and " << pair.second;
     EXPECT_TRUE(std::is_sorted(list.begin(), list.end()));
   }
-  for (const auto& [pair, set] : faces) EXPECT_EQ(set, (faces[{pair.second, pair.first}])) << pair.first << " and " << pair.second;
+  for (const auto& [pair, set] : faces)
+    EXPECT_EQ(set, (faces[{pair.second, pair.first}])) << pair.first << " and " << pair.second;
   // Any two files that have a node in common say so.
   for (std::size_t a = 0; a < w.files.size(); ++a)
     for (std::size_t b = a + 1; b < w.files.size(); ++b) {
@@ -196,9 +200,11 @@ TEST(WriteMesh, JoinsToTheFileOfOneRank) {
   if (comm.rank() == 0) {  // the same alone, written by rank 0
     const HexMesh alone = run_stages(Comm::self(), three_grains()).mesh;
     (void)write_mesh(Comm::self(), alone, box_faces(alone), options_for(folder.file("alone")));
-    const MergeOptions together_out{.extension = "e", .output_extension = "", .output = folder.file("together.exo")};
+    const MergeOptions together_out{
+        .extension = "e", .output_extension = "", .output = folder.file("together.exo")};
     (void)merge_files(folder.file("grains"), comm.size(), together_out);
-    const MergeOptions alone_out{.extension = "e", .output_extension = "", .output = folder.file("alone.exo")};
+    const MergeOptions alone_out{
+        .extension = "e", .output_extension = "", .output = folder.file("alone.exo")};
     (void)merge_files(folder.file("alone"), 1, alone_out);
     const RankMesh a = read_exodus(folder.file("together.exo")), b = read_exodus(folder.file("alone.exo"));
     EXPECT_TRUE(a == b);

@@ -13,16 +13,20 @@ struct Traced {
   HexMesh cells;
   Interfaces faces;
   // Class of the grid node (i,j,k); fails when it is not on an interface.
-  [[nodiscard]] NodeClass kind(const Index3& n) const { return faces.kind[static_cast<std::size_t>(interface_node(n))]; }
+  [[nodiscard]] NodeClass kind(const Index3& n) const {
+    return faces.kind[static_cast<std::size_t>(interface_node(n))];
+  }
   [[nodiscard]] LocalId interface_node(const Index3& n) const {
     const auto& l = cells.lattice;
-    const LocalId i = faces.index_of[static_cast<std::size_t>(n[0] + (l[0] + 1) * (n[1] + (l[1] + 1) * n[2]))];
+    const LocalId i =
+        faces.index_of[static_cast<std::size_t>(n[0] + (l[0] + 1) * (n[1] + (l[1] + 1) * n[2]))];
     if (i == kNone) throw Error("no interface node");
     return i;
   }
 };
 
-Traced traced(const Index3& cells, std::int32_t materials, const std::function<std::int32_t(const Index3&)>& material) {
+Traced traced(const Index3& cells, std::int32_t materials,
+              const std::function<std::int32_t(const Index3&)>& material) {
   Traced t{test::overlay(test::voxels("by hand", cells, materials, material)).cells, {}};
   t.faces = trace_interfaces(t.cells, face_neighbours(t.cells));
   return t;
@@ -36,21 +40,26 @@ void expect_consistent(const Traced& t) {
     items += f.node_quads[i].size();
     EXPECT_TRUE(std::is_sorted(f.node_quads[i].begin(), f.node_quads[i].end()));
     for (const LocalId item : f.node_quads[i])
-      EXPECT_EQ(f.quads[static_cast<std::size_t>(item / 4)].node[static_cast<std::size_t>(item % 4)], f.nodes[i]);
+      EXPECT_EQ(f.quads[static_cast<std::size_t>(item / 4)].node[static_cast<std::size_t>(item % 4)],
+                f.nodes[i]);
     for (const LocalId n : f.neighbours[i]) {
       const auto back = f.neighbours[static_cast<std::size_t>(n)];
       EXPECT_TRUE(std::binary_search(back.begin(), back.end(), static_cast<LocalId>(i)));
     }
-    for (const LocalId n : f.curve_neighbours[i]) EXPECT_TRUE(std::binary_search(f.neighbours[i].begin(), f.neighbours[i].end(), n));
+    for (const LocalId n : f.curve_neighbours[i])
+      EXPECT_TRUE(std::binary_search(f.neighbours[i].begin(), f.neighbours[i].end(), n));
   }
   EXPECT_EQ(items, 4 * f.quads.size());
   for (const InterfaceQuad& q : f.quads) {
     EXPECT_LT(q.cell[0], q.cell[1]);
     Vec3 from, to;
-    for (const LocalId n : t.cells.hexes[static_cast<std::size_t>(q.cell[0])]) from += t.cells.position[static_cast<std::size_t>(n)];
-    for (const LocalId n : t.cells.hexes[static_cast<std::size_t>(q.cell[1])]) to += t.cells.position[static_cast<std::size_t>(n)];
+    for (const LocalId n : t.cells.hexes[static_cast<std::size_t>(q.cell[0])])
+      from += t.cells.position[static_cast<std::size_t>(n)];
+    for (const LocalId n : t.cells.hexes[static_cast<std::size_t>(q.cell[1])])
+      to += t.cells.position[static_cast<std::size_t>(n)];
     const auto p = [&](std::size_t v) { return t.cells.position[static_cast<std::size_t>(q.node[v])]; };
-    EXPECT_GT(dot(cross(p(2) - p(0), p(3) - p(1)), to - from), 0) << "the normal points from cell[0] to cell[1]";
+    EXPECT_GT(dot(cross(p(2) - p(0), p(3) - p(1)), to - from), 0)
+        << "the normal points from cell[0] to cell[1]";
   }
 }
 
@@ -84,7 +93,8 @@ TEST(Interfaces, OfAnIsolatedCell) {
   EXPECT_EQ(t.faces.quads.size(), 6U);
   EXPECT_EQ(t.faces.nodes.size(), 8U);
   expect_consistent(t);
-  EXPECT_EQ(std::count(t.faces.kind.begin(), t.faces.kind.end(), NodeClass::kSurface), 8) << "one closed smooth surface";
+  EXPECT_EQ(std::count(t.faces.kind.begin(), t.faces.kind.end(), NodeClass::kSurface), 8)
+      << "one closed smooth surface";
 }
 
 TEST(Interfaces, OfThreeMaterialsMeetInACurve) {
@@ -105,7 +115,9 @@ TEST(Interfaces, OfThreeMaterialsMeetInACurve) {
 
 TEST(Interfaces, OfFourMaterialsMeetInAVertex) {
   // A layer of 3 below three sectors: four curves meet in the middle node.
-  const Traced t = traced({4, 4, 4}, 4, [](const Index3& c) { return c[2] < 2 ? 3 : c[0] < 2 ? 0 : c[1] < 2 ? 1 : 2; });
+  const Traced t = traced({4, 4, 4}, 4, [](const Index3& c) {
+    return c[2] < 2 ? 3 : c[0] < 2 ? 0 : c[1] < 2 ? 1 : 2;
+  });
   expect_consistent(t);
   EXPECT_EQ(t.kind({2, 2, 2}), NodeClass::kVertex);
   EXPECT_EQ(t.faces.curve_neighbours[static_cast<std::size_t>(t.interface_node({2, 2, 2}))].size(), 4U);
@@ -131,9 +143,10 @@ TEST(Interfaces, QuadsAscendAndAreCompleteOnRandomVoxels) {
     for (const LocalId other : neighbours[c])
       expected += other != kNone && t.cells.material[static_cast<std::size_t>(other)] != t.cells.material[c];
   EXPECT_EQ(2 * t.faces.quads.size(), expected);
-  EXPECT_TRUE(std::is_sorted(t.faces.quads.begin(), t.faces.quads.end(), [](const InterfaceQuad& a, const InterfaceQuad& b) {
-    return std::pair(a.cell[0], a.face) < std::pair(b.cell[0], b.face);
-  }));
+  EXPECT_TRUE(std::is_sorted(t.faces.quads.begin(), t.faces.quads.end(),
+                             [](const InterfaceQuad& a, const InterfaceQuad& b) {
+                               return std::pair(a.cell[0], a.face) < std::pair(b.cell[0], b.face);
+                             }));
 }
 
 }  // namespace

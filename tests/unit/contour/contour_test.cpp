@@ -43,11 +43,13 @@ TEST(HermiteRoot, EndsAndEqualValues) {
 TEST(HermiteRoot, IsAZeroOfTheCubicInsideTheCell) {
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const double g0 = 0.05 + test::scatter_unit(1, i), g1 = -0.05 - test::scatter_unit(2, i);
-    const double drop = g1 - g0, m0 = 3 * drop * test::scatter_unit(3, i), m1 = 3 * drop * test::scatter_unit(4, i);
+    const double drop = g1 - g0, m0 = 3 * drop * test::scatter_unit(3, i),
+                 m1 = 3 * drop * test::scatter_unit(4, i);
     const double t = hermite_root(g0, g1, m0, m1), t2 = t * t, t3 = t2 * t;
     EXPECT_GT(t, 0);
     EXPECT_LT(t, 1);
-    const double g = (2 * t3 - 3 * t2 + 1) * g0 + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * g1 + (t3 - t2) * m1;
+    const double g =
+        (2 * t3 - 3 * t2 + 1) * g0 + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * g1 + (t3 - t2) * m1;
     EXPECT_NEAR(g, 0, 1e-6);
     EXPECT_NEAR(hermite_root(-g1, -g0, m1, m0), 1 - t, 1e-6) << "seen from the other end";
   }
@@ -66,7 +68,8 @@ TEST(PlaneOffset, IsTheInverseOfTheCutVolume) {
       Fractions f;
       test::half_space({1, 1, 1}, normal, offset + dot(normal, {0.5, 0.5, 0.5})).fill({0, 0, 0}, f);
       if (f.material.size() < 2) continue;  // beyond the cube
-      EXPECT_NEAR(plane_offset(f.value[0], normal), offset, 1e-6) << direction.x << " " << direction.y << " " << direction.z;
+      EXPECT_NEAR(plane_offset(f.value[0], normal), offset, 1e-6)
+          << direction.x << " " << direction.y << " " << direction.z;
     }
   }
   EXPECT_NEAR(plane_offset(0.25, {0, 0, 1}), -0.25, 1e-3);
@@ -103,7 +106,8 @@ TEST(Gradient, OfALinearFieldIsExactInside) {
   }
 }
 
-// Beside the box the cells across it are images of the outermost ones: half of the slope through the box is left.
+// Beside the box the cells across it are images of the outermost ones: half of the slope through the box is
+// left.
 TEST(Gradient, IsMirroredAtTheBox) {
   const Vec3 slope{0.08, -0.06, 0.04};
   const test::Case input = ramp({5, 5, 5}, slope);
@@ -140,7 +144,8 @@ Distances from_plane(const Placed& p, std::int64_t cells, const Vec3& normal, do
   for (const LocalId n : p.faces.nodes) {
     const Vec3 grid = p.before[static_cast<std::size_t>(n)];
     bool inside = true;
-    for (std::size_t a = 0; a < 3; ++a) inside = inside && grid[a] >= 2 && grid[a] <= static_cast<double>(cells - 2);
+    for (std::size_t a = 0; a < 3; ++a)
+      inside = inside && grid[a] >= 2 && grid[a] <= static_cast<double>(cells - 2);
     if (!inside) continue;
     const double off = std::fabs(dot(normal, p.cells.position[static_cast<std::size_t>(n)]) - distance);
     d.worst = std::max(d.worst, off);
@@ -151,8 +156,9 @@ Distances from_plane(const Placed& p, std::int64_t cells, const Vec3& normal, do
   return d;
 }
 
-// Where fractions change linearly the gradients are exact. (The fractions leave [0,1] far from the plane, or no field of
-// such a slope would be linear; no cell centre comes close to the plane, where crossings are held off it.)
+// Where fractions change linearly the gradients are exact. (The fractions leave [0,1] far from the plane, or
+// no field of such a slope would be linear; no cell centre comes close to the plane, where crossings are held
+// off it.)
 TEST(PlaceNodes, FindsThePlaneOfALinearField) {
   for (const Vec3 direction : {Vec3{1, 2, 3}, Vec3{-3, 1, 2}, Vec3{2, -2, 1}, Vec3{1, 1, -3}}) {
     const Vec3 normal = unit(direction);
@@ -175,7 +181,8 @@ TEST(PlaceNodes, ComesCloseToASharpPlane) {
   for (const Vec3 direction : {Vec3{1, 2, 3}, Vec3{-3, 1, 0.5}, Vec3{2, -2.5, 1.7}, Vec3{0.2, 0.3, 1}}) {
     const Vec3 normal = unit(direction);
     const double distance = dot(normal, {5.1, 5.2, 4.9});
-    const Distances d = from_plane(placed(test::half_space({10, 10, 10}, normal, distance)), 10, normal, distance);
+    const Distances d =
+        from_plane(placed(test::half_space({10, 10, 10}, normal, distance)), 10, normal, distance);
     ASSERT_GT(d.count, 20);
     EXPECT_LT(d.mean, 0.03) << "direction " << direction.x << " " << direction.y << " " << direction.z;
     EXPECT_LT(d.worst, 0.06) << "direction " << direction.x << " " << direction.y << " " << direction.z;
@@ -193,7 +200,8 @@ TEST(PlaceNodes, MovesAPlaneAlongTheGridAlongItsNormal) {
     };
     const Placed p = placed(input);
     for (const LocalId n : p.faces.nodes) {
-      const Vec3 before = p.before[static_cast<std::size_t>(n)], after = p.cells.position[static_cast<std::size_t>(n)];
+      const Vec3 before = p.before[static_cast<std::size_t>(n)],
+                 after = p.cells.position[static_cast<std::size_t>(n)];
       EXPECT_NEAR(after.x, at, 0.1);
       EXPECT_NEAR(after.y, before.y, 1e-12);
       EXPECT_NEAR(after.z, before.z, 1e-12);

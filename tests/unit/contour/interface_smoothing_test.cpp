@@ -20,19 +20,26 @@ Surface surface(const test::Case& input) {
   Surface s{std::move(o.cells), {}, {}, {}};
   s.faces = trace_interfaces(s.cells, face_neighbours(s.cells));
   s.crossings = edge_crossings(s.cells, s.faces, o.fractions, NodeHexes(s.cells));
-  for (const LocalId n : s.faces.nodes) s.grid_position.push_back(s.cells.position[static_cast<std::size_t>(n)]);
+  for (const LocalId n : s.faces.nodes)
+    s.grid_position.push_back(s.cells.position[static_cast<std::size_t>(n)]);
   return s;
 }
 
-constexpr CurveRule kAllRules[] = {CurveRule::kOff, CurveRule::kCircle, CurveRule::kHermite, CurveRule::kAverageTangent,
-                                   CurveRule::kNeighbourSurfaceNormal, CurveRule::kVfrac, CurveRule::kLinear};
+constexpr CurveRule kAllRules[] = {CurveRule::kOff,
+                                   CurveRule::kCircle,
+                                   CurveRule::kHermite,
+                                   CurveRule::kAverageTangent,
+                                   CurveRule::kNeighbourSurfaceNormal,
+                                   CurveRule::kVfrac,
+                                   CurveRule::kLinear};
 
 TEST(SmoothInterface, LeavesAFlatInterfaceAlone) {
   for (const CurveRule rule : kAllRules) {
     Surface s = surface(test::voxels("slab", {6, 5, 4}, 2, [](const Index3& c) { return c[0] < 3 ? 0 : 1; }));
     const std::vector<Vec3> before = s.cells.position;
     smooth_interface(s.cells, s.faces, s.crossings, s.grid_position, {.pairs = 5, .curve = rule});
-    for (std::size_t n = 0; n < before.size(); ++n) EXPECT_NEAR(norm(s.cells.position[n] - before[n]), 0, 1e-12);
+    for (std::size_t n = 0; n < before.size(); ++n)
+      EXPECT_NEAR(norm(s.cells.position[n] - before[n]), 0, 1e-12);
   }
 }
 
@@ -49,7 +56,8 @@ TEST(SmoothInterface, TakesAStepOutOfTheStaircase) {
     }
     return squares / count - (sum / count) * (sum / count);
   };
-  Surface s = surface(test::voxels("stairs", {12, 5, 8}, 2, [](const Index3& c) { return c[2] < 2 + c[0] / 3 ? 0 : 1; }));
+  Surface s = surface(
+      test::voxels("stairs", {12, 5, 8}, 2, [](const Index3& c) { return c[2] < 2 + c[0] / 3 ? 0 : 1; }));
   const double before = roughness(s);
   smooth_interface(s.cells, s.faces, s.crossings, s.grid_position, {});
   EXPECT_LT(roughness(s), 0.6 * before);
@@ -89,11 +97,14 @@ TEST(SmoothInterface, WithoutPairsDoesNothing) {
 }
 
 double weighed(const Weight& w, const Vec3& d) {
-  return w[0] * d.x * d.x + w[3] * d.y * d.y + w[5] * d.z * d.z + 2 * (w[1] * d.x * d.y + w[2] * d.x * d.z + w[4] * d.y * d.z);
+  return w[0] * d.x * d.x + w[3] * d.y * d.y + w[5] * d.z * d.z +
+         2 * (w[1] * d.x * d.y + w[2] * d.x * d.z + w[4] * d.y * d.z);
 }
 
 TEST(DeviationWeights, HoldSurfacesAlongTheirNormalAndCurvesAcross) {
-  const Surface s = surface(test::voxels("three", {4, 4, 4}, 3, [](const Index3& c) { return c[2] < 2 ? 2 : c[0] < 2 ? 0 : 1; }));
+  const Surface s = surface(test::voxels("three", {4, 4, 4}, 3, [](const Index3& c) {
+    return c[2] < 2 ? 2 : c[0] < 2 ? 0 : 1;
+  }));
   const std::vector<Weight> weights = deviation_weights(s.cells, s.faces);
   const auto at = [&](LocalId i, LocalId j, LocalId k) {
     return weights[static_cast<std::size_t>(s.faces.index_of[static_cast<std::size_t>(i + 5 * (j + 5 * k))])];

@@ -6,7 +6,9 @@
 namespace sculpt {
 namespace {
 
-Index3 segments(const Index3& cells, int ranks, const Index3& user = {0, 0, 0}) { return cut_grid(cells, ranks, user).segments; }
+Index3 segments(const Index3& cells, int ranks, const Index3& user = {0, 0, 0}) {
+  return cut_grid(cells, ranks, user).segments;
+}
 
 // Splits that real Sculpt prints for these grids.
 TEST(CutGrid, IsThatOfSculpt) {

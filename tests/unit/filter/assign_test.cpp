@@ -10,7 +10,8 @@ using Entries = std::vector<std::pair<std::int32_t, double>>;
 
 // A row of cells along x.
 std::vector<std::int32_t> assigned(const std::vector<Entries>& row) {
-  test::Case input = test::voxels({static_cast<std::int64_t>(row.size()), 1, 1}, std::vector<std::int32_t>(row.size(), 0));
+  test::Case input =
+      test::voxels({static_cast<std::int64_t>(row.size()), 1, 1}, std::vector<std::int32_t>(row.size(), 0));
   input.fill = [&row](const Index3& c, Fractions& f) {
     for (const auto& [m, v] : row[static_cast<std::size_t>(c[0])]) f.add(m, v);
   };
@@ -18,12 +19,15 @@ std::vector<std::int32_t> assigned(const std::vector<Entries>& row) {
 }
 
 TEST(AssignMaterials, TakesTheLargestFraction) {
-  EXPECT_EQ(assigned({{{0, 0.2}, {3, 0.5}, {7, 0.3}}, {{5, 1}}, {{1, 0.6}, {2, 0.4}}}), (std::vector<std::int32_t>{3, 5, 1}));
+  EXPECT_EQ(assigned({{{0, 0.2}, {3, 0.5}, {7, 0.3}}, {{5, 1}}, {{1, 0.6}, {2, 0.4}}}),
+            (std::vector<std::int32_t>{3, 5, 1}));
 }
 
 TEST(AssignMaterials, TiesGoToTheOneWithMoreAround) {
-  EXPECT_EQ(assigned({{{2, 1}}, {{1, 0.5}, {2, 0.5}}, {{1, 0.4}, {2, 0.6}}}), (std::vector<std::int32_t>{2, 2, 2}));
-  EXPECT_EQ(assigned({{{1, 1}}, {{1, 0.5}, {2, 0.5}}, {{1, 0.2}, {2, 0.8}}}), (std::vector<std::int32_t>{1, 1, 2}));
+  EXPECT_EQ(assigned({{{2, 1}}, {{1, 0.5}, {2, 0.5}}, {{1, 0.4}, {2, 0.6}}}),
+            (std::vector<std::int32_t>{2, 2, 2}));
+  EXPECT_EQ(assigned({{{1, 1}}, {{1, 0.5}, {2, 0.5}}, {{1, 0.2}, {2, 0.8}}}),
+            (std::vector<std::int32_t>{1, 1, 2}));
 }
 
 TEST(AssignMaterials, FullTiesGoToTheSmallerId) {
@@ -33,12 +37,15 @@ TEST(AssignMaterials, FullTiesGoToTheSmallerId) {
 }
 
 TEST(AssignMaterials, AThreeWayTieLooksAtAllThree) {
-  EXPECT_EQ(assigned({{{2, 1}}, {{0, 1.0 / 3}, {1, 1.0 / 3}, {2, 1.0 / 3}}, {{2, 0.6}, {1, 0.4}}}), (std::vector<std::int32_t>{2, 2, 2}));
-  EXPECT_EQ(assigned({{{1, 1}}, {{0, 0.2}, {1, 0.4}, {2, 0.4}}, {{1, 1}}}), (std::vector<std::int32_t>{1, 1, 1}));
+  EXPECT_EQ(assigned({{{2, 1}}, {{0, 1.0 / 3}, {1, 1.0 / 3}, {2, 1.0 / 3}}, {{2, 0.6}, {1, 0.4}}}),
+            (std::vector<std::int32_t>{2, 2, 2}));
+  EXPECT_EQ(assigned({{{1, 1}}, {{0, 0.2}, {1, 0.4}, {2, 0.4}}, {{1, 1}}}),
+            (std::vector<std::int32_t>{1, 1, 1}));
 }
 
 TEST(ShaveBoundary, ReassignsLoneCellsOnTheBoxOnly) {
-  // 5^3 cells of material 1: a lone cell of 2 inside, one in a side, one in a corner, a pair of 3 in another side.
+  // 5^3 cells of material 1: a lone cell of 2 inside, one in a side, one in a corner, a pair of 3 in another
+  // side.
   const Index3 cells{5, 5, 5};
   test::Case input = test::voxels("lone cells", cells, 4, [](const Index3& c) -> std::int32_t {
     if (c == Index3{2, 2, 2} || c == Index3{4, 2, 2} || c == Index3{0, 0, 0}) return 2;
@@ -50,9 +57,11 @@ TEST(ShaveBoundary, ReassignsLoneCellsOnTheBoxOnly) {
   for (std::int64_t p = 0; p < 125; ++p) {
     const Index3 c = whole(cells).cell(p);
     const bool shaved = c == Index3{4, 2, 2} || c == Index3{0, 0, 0};
-    EXPECT_EQ(o.cells.material[static_cast<std::size_t>(p)], shaved ? 0 : before[static_cast<std::size_t>(p)]);
+    EXPECT_EQ(o.cells.material[static_cast<std::size_t>(p)],
+              shaved ? 0 : before[static_cast<std::size_t>(p)]);
   }
-  EXPECT_EQ(shave_boundary(o.cells, face_neighbours(o.cells), 0), 0) << "cells that have the material already are left";
+  EXPECT_EQ(shave_boundary(o.cells, face_neighbours(o.cells), 0), 0)
+      << "cells that have the material already are left";
 }
 
 TEST(ShaveBoundary, JudgesAllCellsBeforeItChangesAny) {
@@ -60,7 +69,8 @@ TEST(ShaveBoundary, JudgesAllCellsBeforeItChangesAny) {
   test::Overlay o = test::overlay(test::voxels({6, 1, 1}, {1, 2, 1, 2, 1, 2}));
   EXPECT_EQ(shave_boundary(o.cells, face_neighbours(o.cells), 0), 6);
   test::Overlay one = test::overlay(test::voxels({1, 1, 1}, {2}));
-  EXPECT_EQ(shave_boundary(one.cells, face_neighbours(one.cells), 0), 0) << "a grid of one cell has no neighbours";
+  EXPECT_EQ(shave_boundary(one.cells, face_neighbours(one.cells), 0), 0)
+      << "a grid of one cell has no neighbours";
 }
 
 }  // namespace

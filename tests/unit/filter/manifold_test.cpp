@@ -7,14 +7,16 @@
 namespace sculpt {
 namespace {
 
-bool manifold(const HexMesh& mesh) { return interfaces_are_manifold(mesh, face_neighbours(mesh), NodeHexes(mesh)); }
+bool manifold(const HexMesh& mesh) {
+  return interfaces_are_manifold(mesh, face_neighbours(mesh), NodeHexes(mesh));
+}
 
 ManifoldReport resolve(test::Overlay& o) {
   return resolve_non_manifold(o.cells, o.fractions, face_neighbours(o.cells), NodeHexes(o.cells));
 }
 
-// A block of 2x2x2 cells with material 1 where the mask says so, inside a grid of material 0 or of 4x4x4 cells that
-// repeat the block's cells outwards, so that only the middle node can be non-manifold.
+// A block of 2x2x2 cells with material 1 where the mask says so, inside a grid of material 0 or of 4x4x4
+// cells that repeat the block's cells outwards, so that only the middle node can be non-manifold.
 test::Case block_of_octants(unsigned mask) {
   return test::voxels("octants", {4, 4, 4}, 2, [mask](const Index3& c) {
     const auto octant = static_cast<unsigned>((c[0] / 2) | (c[1] / 2) << 1 | (c[2] / 2) << 2);
@@ -22,8 +24,8 @@ test::Case block_of_octants(unsigned mask) {
   });
 }
 
-// Of the 254 ways to fill the eight cells at a node with two materials, 126 are manifold: both materials connected
-// through faces.
+// Of the 254 ways to fill the eight cells at a node with two materials, 126 are manifold: both materials
+// connected through faces.
 TEST(InterfacesAreManifold, For126Of254MixedNodes) {
   int mixed = 0;
   for (unsigned mask = 1; mask < 255; ++mask) mixed += manifold(test::overlay(block_of_octants(mask)).cells);
@@ -65,11 +67,12 @@ TEST(ResolveNonManifold, MendsEveryNodeOfTwoMaterials) {
 // The same block alone in a sea of material 0.
 TEST(ResolveNonManifold, MendsSmallParticles) {
   for (unsigned mask = 1; mask < 256; ++mask) {
-    test::Overlay o = test::overlay(test::voxels("particle", {6, 6, 6}, 2, [mask](const Index3& c) -> std::int32_t {
-      for (const std::int64_t x : c)
-        if (x != 2 && x != 3) return 0;
-      return static_cast<std::int32_t>(mask >> ((c[0] - 2) | (c[1] - 2) << 1 | (c[2] - 2) << 2) & 1);
-    }));
+    test::Overlay o =
+        test::overlay(test::voxels("particle", {6, 6, 6}, 2, [mask](const Index3& c) -> std::int32_t {
+          for (const std::int64_t x : c)
+            if (x != 2 && x != 3) return 0;
+          return static_cast<std::int32_t>(mask >> ((c[0] - 2) | (c[1] - 2) << 1 | (c[2] - 2) << 2) & 1);
+        }));
     resolve(o);
     EXPECT_TRUE(manifold(o.cells)) << "mask " << mask;
   }
@@ -98,7 +101,8 @@ TEST(ResolveNonManifold, SettlesRandomFractions) {
 }
 
 TEST(ResolveNonManifold, SettlesCheckerboards) {
-  for (const Index3 cells : {Index3{8, 8, 8}, Index3{9, 7, 5}, Index3{10, 10, 1}, Index3{2, 2, 2}, Index3{12, 2, 1}})
+  for (const Index3 cells :
+       {Index3{8, 8, 8}, Index3{9, 7, 5}, Index3{10, 10, 1}, Index3{2, 2, 2}, Index3{12, 2, 1}})
     for (std::int32_t materials = 2; materials <= 3; ++materials)
       expect_settled(test::voxels("checkerboard", cells, materials, [materials](const Index3& c) {
         return static_cast<std::int32_t>((c[0] + c[1] + c[2]) % materials);
@@ -112,7 +116,8 @@ TEST(ResolveNonManifold, LeavesThinGridsAlone) {
   EXPECT_EQ(row.cells.material, before);
 }
 
-// Where fractions differ the cheapest change wins: of two cells touching at an edge, the one closest to a tie goes.
+// Where fractions differ the cheapest change wins: of two cells touching at an edge, the one closest to a tie
+// goes.
 TEST(ResolveNonManifold, ChangesTheCellThatIsClosestToATie) {
   test::Case input = block_of_octants(0);
   input.fill = [](const Index3& c, Fractions& f) {
@@ -127,7 +132,8 @@ TEST(ResolveNonManifold, ChangesTheCellThatIsClosestToATie) {
   resolve(o);
   for (std::int64_t p = 0; p < 64; ++p) {
     const Index3 c = whole({4, 4, 4}).cell(p);
-    if (c[0] >= 2 && c[1] >= 2) EXPECT_EQ(o.cells.material[static_cast<std::size_t>(p)], 1) << "a firm cell changed";
+    if (c[0] >= 2 && c[1] >= 2)
+      EXPECT_EQ(o.cells.material[static_cast<std::size_t>(p)], 1) << "a firm cell changed";
   }
   EXPECT_TRUE(manifold(o.cells));
 }
@@ -157,7 +163,8 @@ TEST(Ring, ThreeMaterialsNeedConnectedPartsAndRests) {
   const Ring ring = ring_of(o.cells, face_neighbours(o.cells), NodeHexes(o.cells), 2 + 5 * (2 + 5 * 2));
   EXPECT_TRUE(ring.manifold(std::vector<std::int32_t>{0, 0, 1, 1, 2, 2, 2, 2})) << "two quarters on a half";
   EXPECT_TRUE(ring.manifold(std::vector<std::int32_t>{0, 1, 0, 1, 2, 2, 2, 2}));
-  EXPECT_FALSE(ring.manifold(std::vector<std::int32_t>{0, 1, 2, 0, 3, 3, 3, 3})) << "0 touches itself at an edge";
+  EXPECT_FALSE(ring.manifold(std::vector<std::int32_t>{0, 1, 2, 0, 3, 3, 3, 3}))
+      << "0 touches itself at an edge";
   EXPECT_TRUE(ring.manifold(std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
   EXPECT_FALSE(ring.manifold(std::vector<std::int32_t>{0, 1, 1, 1, 1, 1, 1, 0}));
 }

@@ -58,7 +58,8 @@ TEST(HexTables, CornerNeighboursAreRightHandedEdges) {
   for (std::size_t c = 0; c < 8; ++c) {
     for (const int n : kCornerNeighbours[c]) {
       int differences = 0;
-      for (std::size_t a = 0; a < 3; ++a) differences += kCornerOffset[c][a] != kCornerOffset[static_cast<std::size_t>(n)][a];
+      for (std::size_t a = 0; a < 3; ++a)
+        differences += kCornerOffset[c][a] != kCornerOffset[static_cast<std::size_t>(n)][a];
       EXPECT_EQ(differences, 1) << "corners " << c << " and " << n;
     }
     EXPECT_EQ(corner_determinant(unit_cube(), static_cast<int>(c)), 1);
@@ -85,7 +86,8 @@ TEST(HexTables, FacesLookOutwardsAlongTheirAxis) {
 
 // Sides 1..6 of a HEX8 in the Exodus II manual.
 TEST(HexTables, FacesAreTheSidesOfExodus) {
-  const std::array<std::set<int>, 6> manual{{{1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {1, 5, 8, 4}, {1, 4, 3, 2}, {5, 6, 7, 8}}};
+  const std::array<std::set<int>, 6> manual{
+      {{1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {1, 5, 8, 4}, {1, 4, 3, 2}, {5, 6, 7, 8}}};
   for (std::size_t f = 0; f < 6; ++f)
     for (const int c : kFaces[f]) EXPECT_TRUE(manual[f].contains(c + 1)) << "side " << f + 1;
 }
@@ -98,8 +100,10 @@ TEST(ScaledJacobian, OfBoxesIsOne) {
 TEST(ScaledJacobian, OfAParallelepipedIsTheSineOfItsAngle) {
   const double degrees = std::acos(-1.0) / 180;
   for (const double angle : {10.0, 30.0, 45.0, 89.0})
-    EXPECT_NEAR(scaled_jacobian(mapped({{{1, 0, 0}, {2 * std::cos(angle * degrees), 2 * std::sin(angle * degrees), 0}, {0, 0, 1}}})),
-                std::sin(angle * degrees), 1e-14);
+    EXPECT_NEAR(
+        scaled_jacobian(mapped(
+            {{{1, 0, 0}, {2 * std::cos(angle * degrees), 2 * std::sin(angle * degrees), 0}, {0, 0, 1}}})),
+        std::sin(angle * degrees), 1e-14);
 }
 
 TEST(ScaledJacobian, IsTheWorstCorner) {
@@ -210,7 +214,8 @@ TEST(PositiveInside, IsFalseForAFlatHex) {
 TEST(ShortestEdge, LooksAtAllTwelve) {
   std::set<std::pair<int, int>> edges;
   for (int c = 0; c < 8; ++c)
-    for (const int n : kCornerNeighbours[static_cast<std::size_t>(c)]) edges.insert({std::min(c, n), std::max(c, n)});
+    for (const int n : kCornerNeighbours[static_cast<std::size_t>(c)])
+      edges.insert({std::min(c, n), std::max(c, n)});
   ASSERT_EQ(edges.size(), 12U);
   EXPECT_EQ(shortest_edge(mapped({{{3, 0, 0}, {0, 2, 0}, {0, 0, 0.5}}})), 0.5);
   for (const auto& [a, b] : edges) {

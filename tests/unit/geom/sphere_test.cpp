@@ -15,14 +15,14 @@ TEST(Sphere, Bounds) {
 }
 
 TEST(Sphere, ContainsBoxesWhoseFarthestCornerIsInside) {
-  EXPECT_TRUE(kBall.contains({{1, 2, 3}, {3.8, 4.8, 5.8}}));    // farthest corner at 2.8 sqrt(3) = 4.85
+  EXPECT_TRUE(kBall.contains({{1, 2, 3}, {3.8, 4.8, 5.8}}));     // farthest corner at 2.8 sqrt(3) = 4.85
   EXPECT_FALSE(kBall.contains({{1, 2, 3}, {3.95, 4.95, 5.9}}));  // at 5.08
   EXPECT_FALSE(kBall.contains({{-9, -9, -9}, {9, 9, 9}}));
 }
 
 TEST(Sphere, MissesBoxesWhoseNearestPointIsOutside) {
   EXPECT_TRUE(kBall.misses({{7, 2, 3}, {9, 3, 4}}));
-  EXPECT_TRUE(kBall.misses({{4, 5, 6}, {9, 9, 9}}));     // nearest corner at 3 sqrt(3) = 5.2
+  EXPECT_TRUE(kBall.misses({{4, 5, 6}, {9, 9, 9}}));  // nearest corner at 3 sqrt(3) = 5.2
   EXPECT_FALSE(kBall.misses({{3.8, 4.8, 5.8}, {9, 9, 9}}));
   EXPECT_FALSE(kBall.misses({{0, 0, 0}, {1, 1, 1}}));
 }

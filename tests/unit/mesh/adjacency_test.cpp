@@ -10,7 +10,9 @@ namespace sculpt {
 namespace {
 
 HexMesh lattice(const Index3& cells) {
-  return test::overlay(test::voxels(cells, std::vector<std::int32_t>(static_cast<std::size_t>(whole(cells).size()), 0))).cells;
+  return test::overlay(
+             test::voxels(cells, std::vector<std::int32_t>(static_cast<std::size_t>(whole(cells).size()), 0)))
+      .cells;
 }
 
 TEST(FaceNeighbours, OfALatticeByHand) {

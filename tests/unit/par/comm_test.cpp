@@ -40,8 +40,10 @@ TEST(CurrentExceptionText, IsNeverEmpty) {
 
 TEST(CollectivelyAlone, PassesTheUsersErrorsOnAsTheyAre) {
   const Comm comm = Comm::self();
-  EXPECT_EQ(text_of_current([&] { collectively(comm, "reading", [] { throw Error("file x: bad"); }); }), "file x: bad");
-  EXPECT_EQ(text_of_current([&] { collectively(comm, "reading", [] { throw std::runtime_error("odd"); }); }), "reading: odd");
+  EXPECT_EQ(text_of_current([&] { collectively(comm, "reading", [] { throw Error("file x: bad"); }); }),
+            "file x: bad");
+  EXPECT_EQ(text_of_current([&] { collectively(comm, "reading", [] { throw std::runtime_error("odd"); }); }),
+            "reading: odd");
   EXPECT_THROW(collectively(comm, "reading", [] { check(false, "promise"); }), AgreedError);
   bool done = false;
   collectively(comm, "reading", [&] { done = true; });

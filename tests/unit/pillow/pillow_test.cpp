@@ -48,7 +48,9 @@ TEST(Pillow, OfAPlaneByHand) {
 }
 
 TEST(Pillow, OfAnIsolatedCellByHand) {
-  const test::Overlay o = test::overlay(test::voxels("cell", {3, 3, 3}, 2, [](const Index3& c) { return c == Index3{1, 1, 1} ? 1 : 0; }));
+  const test::Overlay o = test::overlay(test::voxels("cell", {3, 3, 3}, 2, [](const Index3& c) {
+    return c == Index3{1, 1, 1} ? 1 : 0;
+  }));
   const Pillowed p = pillowed(o.cells);
   EXPECT_EQ(p.mesh.size(), 27 + 12);
   EXPECT_EQ(p.mesh.nodes(), 64 + 16);
@@ -74,15 +76,21 @@ void expect_pillowed_well(const test::Case& input) {
   EXPECT_EQ(test::boundary_problem(p.mesh), "") << input.name;
   EXPECT_EQ(test::box_problem(p.mesh, input.grid), "") << input.name;
   EXPECT_NEAR(test::volume(p.mesh) / test::volume(input.grid), 1, 1e-12) << input.name;
-  const std::vector<double> before = test::volumes(o.cells, input.materials), after = test::volumes(p.mesh, input.materials);
-  for (std::size_t m = 0; m < before.size(); ++m) EXPECT_NEAR(after[m], before[m], 1e-9) << input.name << ", material " << m;
+  const std::vector<double> before = test::volumes(o.cells, input.materials),
+                            after = test::volumes(p.mesh, input.materials);
+  for (std::size_t m = 0; m < before.size(); ++m)
+    EXPECT_NEAR(after[m], before[m], 1e-9) << input.name << ", material " << m;
 
   const Pillowed flat = pillowed(o.cells, 0);  // buffer hexes without thickness, the others as they were
   double volume = 0;
   for (LocalId h = 0; h < flat.mesh.size(); ++h) {
     const double v = hex_volume(flat.mesh.corners(h));
     const bool cell = flat.mesh.hex_id[static_cast<std::size_t>(h)] % 8 == 0;
-    EXPECT_NEAR(v, cell ? hex_volume(o.cells.corners(static_cast<LocalId>(flat.mesh.hex_id[static_cast<std::size_t>(h)] / 8))) : 0, 1e-14);
+    EXPECT_NEAR(v,
+                cell ? hex_volume(o.cells.corners(
+                           static_cast<LocalId>(flat.mesh.hex_id[static_cast<std::size_t>(h)] / 8)))
+                     : 0,
+                1e-14);
     volume += v;
   }
   EXPECT_NEAR(volume / test::volume(input.grid), 1, 1e-12) << input.name;
@@ -126,7 +134,8 @@ TEST(Pillow, WithoutTheVoidHasOneLayerAtItsSurface) {
   const Pillowed p = pillow(Comm::self(), o.cells, label, drop, 0.3);
   EXPECT_EQ(p.mesh.size(), kept + quads(o.cells));
   EXPECT_EQ(test::conformity_problem(p.mesh), "");
-  EXPECT_TRUE(std::all_of(p.mesh.material.begin(), p.mesh.material.end(), [](std::int32_t m) { return m == 1; }));
+  EXPECT_TRUE(
+      std::all_of(p.mesh.material.begin(), p.mesh.material.end(), [](std::int32_t m) { return m == 1; }));
   EXPECT_NEAR(test::volume(p.mesh), static_cast<double>(kept), 1e-10);
 }
 
@@ -136,14 +145,17 @@ TEST(SurfacePillow, AddsASecondLayerAtEveryInterface) {
     const std::int64_t faces = quads(o.cells);
     const Pillowed first = pillowed(o.cells);
     const std::vector<std::int32_t> label = surface_labels(first.mesh);
-    EXPECT_EQ(std::count_if(label.begin(), label.end(), [](std::int32_t l) { return l >= 0; }), 2 * faces) << input.name;
+    EXPECT_EQ(std::count_if(label.begin(), label.end(), [](std::int32_t l) { return l >= 0; }), 2 * faces)
+        << input.name;
     const std::vector<std::uint8_t> keep(first.mesh.hexes.size(), 0);
     const Pillowed second = pillow(Comm::self(), first.mesh, label, keep, 0.5);
     EXPECT_EQ(test::conformity_problem(second.mesh, 2), "") << input.name;
     EXPECT_EQ(test::boundary_problem(second.mesh), "") << input.name;
     EXPECT_EQ(test::box_problem(second.mesh, input.grid), "") << input.name;
-    EXPECT_GE(test::interface_faces(second.mesh), test::interface_faces(first.mesh)) << "curves gain a strip: " << input.name;
-    EXPECT_GE(second.mesh.size(), first.mesh.size() + 2 * faces) << "every hex of a sheet has a face towards its cell";
+    EXPECT_GE(test::interface_faces(second.mesh), test::interface_faces(first.mesh))
+        << "curves gain a strip: " << input.name;
+    EXPECT_GE(second.mesh.size(), first.mesh.size() + 2 * faces)
+        << "every hex of a sheet has a face towards its cell";
     EXPECT_NEAR(test::volume(second.mesh) / test::volume(input.grid), 1, 1e-12) << input.name;
   }
 }

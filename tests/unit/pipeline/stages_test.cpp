@@ -18,9 +18,11 @@ TEST(Stages, PrintsALinePerStageAndTheTotal) {
   stages.end("read input");
   stages.end("smooth volume");
   const std::string text = printed(stages, 1000);
-  EXPECT_TRUE(std::regex_search(text, std::regex("  read input +0\\.\\d{3} +[0-9.]+% +[0-9.]+ +[0-9.]+\n"))) << text;
+  EXPECT_TRUE(std::regex_search(text, std::regex("  read input +0\\.\\d{3} +[0-9.]+% +[0-9.]+ +[0-9.]+\n")))
+      << text;
   EXPECT_LT(text.find("read input"), text.find("smooth volume"));
-  EXPECT_TRUE(std::regex_search(text, std::regex("Total +0\\.\\d{3} +\\d+ hexes/s/rank, \\d+ bytes/hex"))) << text;
+  EXPECT_TRUE(std::regex_search(text, std::regex("Total +0\\.\\d{3} +\\d+ hexes/s/rank, \\d+ bytes/hex")))
+      << text;
 }
 
 TEST(Stages, OfAnEmptyMeshHaveNoRates) {

@@ -15,7 +15,8 @@ Geometry no_interfaces(const HexMesh& mesh) {
 }
 
 HexMesh lattice(const Index3& cells, const Vec3& size = {1, 1, 1}) {
-  test::Case input = test::voxels(cells, std::vector<std::int32_t>(static_cast<std::size_t>(whole(cells).size()), 0));
+  test::Case input =
+      test::voxels(cells, std::vector<std::int32_t>(static_cast<std::size_t>(whole(cells).size()), 0));
   input.grid = uniform_grid(cells, {0.1, -3, 7}, size);
   return test::overlay(input).cells;
 }

@@ -17,7 +17,8 @@ struct Block {
   explicit Block(double noise, std::uint64_t seed = 1)
       : mesh(test::overlay(test::voxels({2, 2, 2}, std::vector<std::int32_t>(8, 0))).cells), around(mesh) {
     for (std::size_t n = 0; n < mesh.position.size(); ++n)
-      for (std::size_t d = 0; d < 3; ++d) mesh.position[n][d] += noise * (test::scatter_unit(seed, 3 * n + d) - 0.5);
+      for (std::size_t d = 0; d < 3; ++d)
+        mesh.position[n][d] += noise * (test::scatter_unit(seed, 3 * n + d) - 0.5);
   }
   [[nodiscard]] Star star(Star::Target target = Star::Target::kPresent, std::size_t hexes = 8) const {
     Star s;
@@ -57,20 +58,23 @@ TEST(Star, DerivativesAgreeWithDifferencesOfValues) {
           Vec3 step;
           step[a] = kStep;
           const double up = star.value(step, r, eps).energy, down = star.value(-step, r, eps).energy;
-          EXPECT_NEAR(d.gradient[a] / size, (up - down) / (2 * kStep) / size, 1e-6) << "axis " << a << ", r " << r;
+          EXPECT_NEAR(d.gradient[a] / size, (up - down) / (2 * kStep) / size, 1e-6)
+              << "axis " << a << ", r " << r;
         }
       }
 }
 
-// At a minimum of every single tetrahedron the curvature is exact; elsewhere the part that could make it indefinite may
-// be left out. Perfect cubes are such a point.
+// At a minimum of every single tetrahedron the curvature is exact; elsewhere the part that could make it
+// indefinite may be left out. Perfect cubes are such a point.
 TEST(Star, CurvatureOfPerfectCubesAgreesWithDifferences) {
   constexpr double kStep = 1e-4;
   const Star star = Block(0).star(Star::Target::kUnit);
   for (const int r : {1, 2}) {
     const Derivatives d = star.derivatives(r, 0);
     const double middle = star.value({}, r, 0).energy;
-    const double curvature = (star.value({kStep, 0, 0}, r, 0).energy - 2 * middle + star.value({-kStep, 0, 0}, r, 0).energy) / (kStep * kStep);
+    const double curvature =
+        (star.value({kStep, 0, 0}, r, 0).energy - 2 * middle + star.value({-kStep, 0, 0}, r, 0).energy) /
+        (kStep * kStep);
     EXPECT_NEAR(d.hessian[0], curvature, 1e-3 * curvature) << "r " << r;
   }
 }
@@ -123,8 +127,8 @@ TEST(Star, PaddingIsNeutral) {
     Star::Shape least{2, 1e300};
     for (std::size_t h = 0; h < hexes; ++h) {
       Star one;
-      one.gather(block.mesh.hexes, block.mesh.position, block.around[Block::kMiddle].subspan(h, 1), Block::kMiddle, kScale,
-                 Star::Target::kPresent);
+      one.gather(block.mesh.hexes, block.mesh.position, block.around[Block::kMiddle].subspan(h, 1),
+                 Block::kMiddle, kScale, Star::Target::kPresent);
       const Derivatives d = one.derivatives(2, 1e-2);
       energy += d.energy;
       gradient += d.gradient;
@@ -173,7 +177,8 @@ TEST(Star, ScalesEveryAxis) {
   Block flat(0);
   for (Vec3& p : flat.mesh.position) p = scaled(p, {1, 0.1, 10});
   Star star;
-  star.gather(flat.mesh.hexes, flat.mesh.position, flat.around[Block::kMiddle], Block::kMiddle, {1, 10, 0.1}, Star::Target::kUnit);
+  star.gather(flat.mesh.hexes, flat.mesh.position, flat.around[Block::kMiddle], Block::kMiddle, {1, 10, 0.1},
+              Star::Target::kUnit);
   EXPECT_NEAR(star.derivatives(2, 0).energy, 32, 1e-12);
   EXPECT_NEAR(star.shortest_edge(), 1, 1e-15);
 }

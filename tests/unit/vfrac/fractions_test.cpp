@@ -22,7 +22,8 @@ Fractions cells(const std::vector<Entries>& list) {
 
 Entries entries(const Fractions& f, std::size_t cell) {
   Entries e;
-  for (auto i = static_cast<std::size_t>(f.offset[cell]); i < static_cast<std::size_t>(f.offset[cell + 1]); ++i)
+  for (auto i = static_cast<std::size_t>(f.offset[cell]); i < static_cast<std::size_t>(f.offset[cell + 1]);
+       ++i)
     e.emplace_back(f.material[i], f.value[i]);
   return e;
 }
@@ -54,7 +55,8 @@ TEST(ExpandFractions, RepeatsTheOutermostCells) {
   const Fractions grown = expand_fractions(data, whole(source), whole({4, 3, 3}), 1, source);
   ASSERT_EQ(grown.cells(), 36);
   for (std::size_t c = 0; c < 36; ++c)
-    EXPECT_EQ(entries(grown, c), c % 4 < 2 ? (Entries{{0, 0.5}, {2, 0.5}}) : (Entries{{1, 1}})) << "cell " << c;
+    EXPECT_EQ(entries(grown, c), c % 4 < 2 ? (Entries{{0, 0.5}, {2, 0.5}}) : (Entries{{1, 1}}))
+        << "cell " << c;
 }
 
 TEST(ExpandFractions, OfAPartEqualsThePartOfTheWhole) {
@@ -62,13 +64,16 @@ TEST(ExpandFractions, OfAPartEqualsThePartOfTheWhole) {
   const Index3 source = input.grid.cells;
   const std::int64_t layers = 3;
   const IndexBox grown = whole({12, 11, 10});
-  const Fractions all = expand_fractions(test::fractions_in(input, whole(source)), whole(source), grown, layers, source);
-  for (const IndexBox box : {IndexBox{{0, 0, 0}, {5, 11, 2}}, IndexBox{{8, 4, 4}, {12, 6, 10}}, IndexBox{{4, 4, 4}, {5, 5, 5}}}) {
+  const Fractions all =
+      expand_fractions(test::fractions_in(input, whole(source)), whole(source), grown, layers, source);
+  for (const IndexBox box :
+       {IndexBox{{0, 0, 0}, {5, 11, 2}}, IndexBox{{8, 4, 4}, {12, 6, 10}}, IndexBox{{4, 4, 4}, {5, 5, 5}}}) {
     const IndexBox from = source_of(box, layers, source);
     const Fractions part = expand_fractions(test::fractions_in(input, from), from, box, layers, source);
     ASSERT_EQ(part.cells(), box.size());
     for (std::int64_t p = 0; p < box.size(); ++p)
-      EXPECT_EQ(entries(part, static_cast<std::size_t>(p)), entries(all, static_cast<std::size_t>(grown.position(box.cell(p)))));
+      EXPECT_EQ(entries(part, static_cast<std::size_t>(p)),
+                entries(all, static_cast<std::size_t>(grown.position(box.cell(p)))));
   }
 }
 
@@ -107,7 +112,8 @@ TEST(FollowAssignment, MakesTheAssignedMaterialDominantAndKeepsTheSum) {
   for (std::uint64_t c = 0; c < 500; ++c) {
     const auto count = static_cast<std::int32_t>(1 + test::scatter(1, c) % 4);
     std::vector<double> value;
-    for (std::int32_t m = 0; m < count; ++m) value.push_back(0.05 + test::scatter_unit(2, 4 * c + static_cast<std::uint64_t>(m)));
+    for (std::int32_t m = 0; m < count; ++m)
+      value.push_back(0.05 + test::scatter_unit(2, 4 * c + static_cast<std::uint64_t>(m)));
     const double sum = std::accumulate(value.begin(), value.end(), 0.0);
     for (std::int32_t m = 0; m < count; ++m) f.add(2 * m, value[static_cast<std::size_t>(m)] / sum);
     f.end_cell();

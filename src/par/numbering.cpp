@@ -28,6 +28,21 @@ std::vector<GlobalId> answer(const Comm& comm, const std::vector<std::vector<Glo
   return numbers;
 }
 
+// The first number of each group, from the keys in every group.
+std::vector<GlobalId> group_starts(const std::vector<std::int64_t>& counts) {
+  std::vector<GlobalId> start(counts.size(), 0);
+  for (std::size_t g = 1; g < counts.size(); ++g) start[g] = start[g - 1] + counts[g - 1];
+  return start;
+}
+
+std::vector<GlobalId> grouped_alone(std::span<const std::int32_t> group, std::size_t groups, std::vector<std::int64_t>& counts) {
+  counts.assign(groups, 0);
+  for (const std::int32_t g : group) ++counts[static_cast<std::size_t>(g)];
+  std::vector<GlobalId> next = group_starts(counts), numbers(group.size());
+  for (std::size_t i = 0; i < group.size(); ++i) numbers[i] = next[static_cast<std::size_t>(group[i])]++;
+  return numbers;
+}
+
 }  // namespace
 
 std::vector<GlobalId> dense_numbers(const Comm& comm, std::span<const GlobalId> keys, GlobalId& total) {
@@ -55,6 +70,7 @@ std::vector<GlobalId> dense_numbers(const Comm& comm, std::span<const GlobalId> 
 
 std::vector<GlobalId> grouped_numbers(const Comm& comm, std::span<const GlobalId> keys, std::span<const std::int32_t> group,
                                       std::size_t groups, std::vector<std::int64_t>& counts) {
+  if (comm.size() == 1) return grouped_alone(group, groups, counts);
   const auto asked = comm.all_to_all(by_range(comm, keys, group));
   struct Place {
     Keyed item;
@@ -67,18 +83,14 @@ std::vector<GlobalId> grouped_numbers(const Comm& comm, std::span<const GlobalId
     for (std::size_t i = 0; i < asked[r].size(); ++i)
       places.push_back({asked[r][i], static_cast<std::int32_t>(r), static_cast<std::int32_t>(i)});
   }
-  if (asked.size() > 1)
-    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.item.key < b.item.key; });
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.item.key < b.item.key; });
   std::vector<std::int64_t> next(groups, 0);
   for (const Place& p : places) ++next[static_cast<std::size_t>(p.item.group)];
   counts = next;
   comm.exclusive_sum(next);
   comm.sum(counts);
-  GlobalId start = 0;
-  for (std::size_t g = 0; g < groups; ++g) {
-    next[g] += start;
-    start += counts[g];
-  }
+  const std::vector<GlobalId> start = group_starts(counts);
+  for (std::size_t g = 0; g < groups; ++g) next[g] += start[g];
   for (const Place& p : places)
     replies[static_cast<std::size_t>(p.rank)][static_cast<std::size_t>(p.slot)] = next[static_cast<std::size_t>(p.item.group)]++;
   return answer(comm, replies, keys.size());

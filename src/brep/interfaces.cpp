@@ -12,7 +12,8 @@ void find_quads(const HexMesh& mesh, const FaceNeighbours& neighbours, Interface
   for (LocalId c = 0; c < mesh.size(); ++c)
     for (int f = 0; f < 6; ++f) {
       const LocalId other = neighbours[at(c)][static_cast<std::size_t>(f)];
-      if (other < c || mesh.material[at(other)] == mesh.material[at(c)]) continue;  // kNone is below every cell
+      if (other < c || mesh.material[at(other)] == mesh.material[at(c)])
+        continue;  // kNone is below every cell
       InterfaceQuad q;
       for (std::size_t v = 0; v < 4; ++v)
         q.node[v] = mesh.hexes[at(c)][static_cast<std::size_t>(kFaces[static_cast<std::size_t>(f)][v])];
@@ -42,7 +43,8 @@ void find_node_quads(Interfaces& out) {
   std::vector<std::int64_t> next(start.begin(), start.end() - 1);
   for (std::size_t q = 0; q < out.quads.size(); ++q)
     for (std::size_t v = 0; v < 4; ++v)
-      items[static_cast<std::size_t>(next[at(out.index_of[at(out.quads[q].node[v])])]++)] = static_cast<LocalId>(4 * q + v);
+      items[static_cast<std::size_t>(next[at(out.index_of[at(out.quads[q].node[v])])]++)] =
+          static_cast<LocalId>(4 * q + v);
   out.node_quads.reserve(out.nodes.size(), items.size());
   for (std::size_t i = 0; i < out.nodes.size(); ++i) {
     for (auto e = start[i]; e < start[i + 1]; ++e) out.node_quads.add(items[static_cast<std::size_t>(e)]);
@@ -74,7 +76,8 @@ void find_neighbours(Interfaces& out) {
   }
 }
 
-// A curve node has two curve edges; on the box both must run in the box sides of the node, or the curve leaves them.
+// A curve node has two curve edges; on the box both must run in the box sides of the node, or the curve
+// leaves them.
 NodeClass class_of(const HexMesh& mesh, const Interfaces& faces, std::size_t i) {
   const auto curve = faces.curve_neighbours[i];
   if (curve.empty()) return NodeClass::kSurface;

@@ -17,8 +17,9 @@ class GradientStencil {
     std::int32_t material;
     Vec3 gradient;
   };
-  // Every material in the cell or a cell that shares a node with it, ascending. The stencil is mirrored at the sides
-  // of the box, so that interfaces leave it at right angles; a direction without neighbours gets no gradient.
+  // Every material in the cell or a cell that shares a node with it, ascending. The stencil is mirrored at
+  // the sides of the box, so that interfaces leave it at right angles; a direction without neighbours gets no
+  // gradient.
   const std::vector<Entry>& at(LocalId cell);
 
  private:

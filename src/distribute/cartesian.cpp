@@ -29,7 +29,8 @@ bool best_factors(const Index3& n, std::int64_t ranks, const Index3& user, Index
     if (ranks % px != 0 || (user[0] != 0 && px != user[0])) continue;
     for (std::int64_t py = 1; py <= std::min(ranks / px, n[1]); ++py) {
       const std::int64_t pz = ranks / px / py;
-      if (ranks / px % py != 0 || pz > n[2] || (user[1] != 0 && py != user[1]) || (user[2] != 0 && pz != user[2]))
+      if (ranks / px % py != 0 || pz > n[2] || (user[1] != 0 && py != user[1]) ||
+          (user[2] != 0 && pz != user[2]))
         continue;
       const Index3 p{px, py, pz};
       if (!found || score(n, p) < best_score) {
@@ -53,7 +54,8 @@ std::uint8_t sides_of(const Index3& node, const Index3& cells) {
 }
 
 void add_nodes(HexMesh& mesh, const Grid& grid, const CartesianParts& parts, const IndexBox& box) {
-  const auto count = static_cast<std::size_t>((box.extent(0) + 1) * (box.extent(1) + 1) * (box.extent(2) + 1));
+  const auto count =
+      static_cast<std::size_t>((box.extent(0) + 1) * (box.extent(1) + 1) * (box.extent(2) + 1));
   mesh.position.reserve(count);
   mesh.node_id.reserve(count);
   mesh.node_owner.reserve(count);
@@ -63,18 +65,21 @@ void add_nodes(HexMesh& mesh, const Grid& grid, const CartesianParts& parts, con
     for (std::int64_t j = box.lo[1]; j <= box.hi[1]; ++j)
       for (std::int64_t i = box.lo[0]; i <= box.hi[0]; ++i) {
         const Index3 n{i, j, k};
-        mesh.position.push_back({grid.planes[0][static_cast<std::size_t>(i)], grid.planes[1][static_cast<std::size_t>(j)],
+        mesh.position.push_back({grid.planes[0][static_cast<std::size_t>(i)],
+                                 grid.planes[1][static_cast<std::size_t>(j)],
                                  grid.planes[2][static_cast<std::size_t>(k)]});
         mesh.node_id.push_back(grid.node_id(n));
         // Owner of the cell with the smallest id around the node.
-        mesh.node_owner.push_back(parts.owner({std::max<std::int64_t>(i - 1, 0), std::max<std::int64_t>(j - 1, 0),
-                                               std::max<std::int64_t>(k - 1, 0)}));
+        mesh.node_owner.push_back(
+            parts.owner({std::max<std::int64_t>(i - 1, 0), std::max<std::int64_t>(j - 1, 0),
+                         std::max<std::int64_t>(k - 1, 0)}));
         mesh.box_sides.push_back(sides_of(n, grid.cells));
         mesh.colour.push_back(static_cast<std::uint8_t>((i & 1) | (j & 1) << 1 | (k & 1) << 2));
       }
 }
 
-void add_cells(HexMesh& mesh, const Grid& grid, const CartesianParts& parts, const IndexBox& box, const IndexBox& owned) {
+void add_cells(HexMesh& mesh, const Grid& grid, const CartesianParts& parts, const IndexBox& box,
+               const IndexBox& owned) {
   const auto count = static_cast<std::size_t>(box.size());
   mesh.hexes.reserve(count);
   mesh.hex_id.reserve(count);
@@ -88,9 +93,11 @@ void add_cells(HexMesh& mesh, const Grid& grid, const CartesianParts& parts, con
         const std::int64_t first = (i - box.lo[0]) + sy * (j - box.lo[1]) + sz * (k - box.lo[2]);
         Hex hex;
         for (std::size_t v = 0; v < 8; ++v)
-          hex[v] = static_cast<LocalId>(first + kCornerOffset[v][0] + sy * kCornerOffset[v][1] + sz * kCornerOffset[v][2]);
+          hex[v] = static_cast<LocalId>(first + kCornerOffset[v][0] + sy * kCornerOffset[v][1] +
+                                        sz * kCornerOffset[v][2]);
         std::int64_t layer = 0;
-        for (std::size_t d = 0; d < 3; ++d) layer = std::max({layer, owned.lo[d] - c[d], c[d] - owned.hi[d] + 1});
+        for (std::size_t d = 0; d < 3; ++d)
+          layer = std::max({layer, owned.lo[d] - c[d], c[d] - owned.hi[d] + 1});
         mesh.hexes.push_back(hex);
         mesh.hex_id.push_back(grid.cell_id(c));
         mesh.hex_owner.push_back(parts.owner(c));
@@ -135,10 +142,12 @@ CartesianParts cut_grid(const Index3& cells, int ranks, const Index3& user) {
   const bool fixed = user[0] != 0 || user[1] != 0 || user[2] != 0;
   bool found = best_factors(cells, ranks, user, parts.segments);
   if (!found && fixed)
-    throw Error(fmt::format("iproc, jproc, kproc = {}, {}, {} (0 = free): cannot cut a grid of {} x {} x {} cells into {} "
-                            "parts; expected factors of the number of ranks, each at most the cells of its axis",
-                            user[0], user[1], user[2], cells[0], cells[1], cells[2], ranks));
-  for (std::int64_t fewer = ranks - 1; !found; --fewer) found = best_factors(cells, fewer, user, parts.segments);
+    throw Error(fmt::format(
+        "iproc, jproc, kproc = {}, {}, {} (0 = free): cannot cut a grid of {} x {} x {} cells into {} "
+        "parts; expected factors of the number of ranks, each at most the cells of its axis",
+        user[0], user[1], user[2], cells[0], cells[1], cells[2], ranks));
+  for (std::int64_t fewer = ranks - 1; !found; --fewer)
+    found = best_factors(cells, fewer, user, parts.segments);
   for (std::size_t d = 0; d < 3; ++d)
     for (std::int64_t s = 0; s <= parts.segments[d]; ++s)
       parts.cuts[d].push_back(ceiling(s * cells[d], parts.segments[d]));

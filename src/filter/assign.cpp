@@ -20,7 +20,8 @@ double in_neighbours(const Fractions& f, const std::array<LocalId, 6>& neighbour
 void assign_materials(HexMesh& mesh, const Fractions& fractions, const FaceNeighbours& neighbours) {
   mesh.material.resize(mesh.hexes.size());
   for (std::size_t c = 0; c < mesh.hexes.size(); ++c) {
-    const auto first = static_cast<std::size_t>(fractions.offset[c]), last = static_cast<std::size_t>(fractions.offset[c + 1]);
+    const auto first = static_cast<std::size_t>(fractions.offset[c]),
+               last = static_cast<std::size_t>(fractions.offset[c + 1]);
     std::size_t best = first;
     double around_best = -1;
     for (std::size_t e = first + 1; e < last; ++e) {

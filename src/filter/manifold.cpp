@@ -10,11 +10,11 @@ namespace sculpt {
 namespace {
 
 constexpr double kNoClaim = std::numeric_limits<double>::infinity();
-constexpr int kPasses = 60;          // of the cost-driven repair, then the last resort
-constexpr double kFrozen = 1000;     // cost that keeps a cell from changing again
-constexpr int kFreezeAfter = 4;      // changes of one cell
-constexpr double kContact = 0.05;    // cost per face neighbour of the old (+) and of the new (-) material
-constexpr double kBias = 0.1;        // grows as 2^changes - 1 (section 2.7.1 of the report: changes must stick)
+constexpr int kPasses = 60;        // of the cost-driven repair, then the last resort
+constexpr double kFrozen = 1000;   // cost that keeps a cell from changing again
+constexpr int kFreezeAfter = 4;    // changes of one cell
+constexpr double kContact = 0.05;  // cost per face neighbour of the old (+) and of the new (-) material
+constexpr double kBias = 0.1;      // grows as 2^changes - 1 (section 2.7.1 of the report: changes must stick)
 
 struct Flip {
   int slot;  // in the ring
@@ -32,15 +32,22 @@ std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
 class Repair {
  public:
   Repair(HexMesh& mesh, const Fractions& fractions, const FaceNeighbours& neighbours, const NodeHexes& around)
-      : mesh_(mesh), fractions_(fractions), neighbours_(neighbours), around_(around), changes_(mesh.hexes.size(), 0),
-        bad_(mesh.position.size(), 0), stale_(mesh.position.size(), 1), claim_(mesh.position.size(), kNoClaim) {}
+      : mesh_(mesh),
+        fractions_(fractions),
+        neighbours_(neighbours),
+        around_(around),
+        changes_(mesh.hexes.size(), 0),
+        bad_(mesh.position.size(), 0),
+        stale_(mesh.position.size(), 1),
+        claim_(mesh.position.size(), kNoClaim) {}
 
   ManifoldReport run() {
     const Comm& comm = mesh_.node_exchange.comm();
     ManifoldReport report;
     find_bad_nodes();
     report.bad_nodes = comm.sum(static_cast<std::int64_t>(active_.size()));
-    for (std::int64_t left = report.bad_nodes; left > 0; left = comm.sum(static_cast<std::int64_t>(active_.size()))) {
+    for (std::int64_t left = report.bad_nodes; left > 0;
+         left = comm.sum(static_cast<std::int64_t>(active_.size()))) {
       last_resort_ = report.passes++ >= kPasses;
       if (last_resort_) report.forced_nodes = std::max(report.forced_nodes, left);
       collectively(comm, "resolving non-manifold nodes", [&] { propose(); });
@@ -87,8 +94,9 @@ class Repair {
       with_new += mesh_.material[at(n)] == to;
     }
     const int changes = changes_[at(cell)];
-    return fraction_of(fractions_, cell, from) - fraction_of(fractions_, cell, to) + kContact * (with_old - with_new) +
-           kBias * ((1 << std::min(changes, 6)) - 1) + (changes >= kFreezeAfter ? kFrozen : 0.0);
+    return fraction_of(fractions_, cell, from) - fraction_of(fractions_, cell, to) +
+           kContact * (with_old - with_new) + kBias * ((1 << std::min(changes, 6)) - 1) +
+           (changes >= kFreezeAfter ? kFrozen : 0.0);
   }
 
   // Change in the number of non-manifold nodes around the flipped cells if the flips were made.
@@ -118,7 +126,8 @@ class Repair {
   };
 
   // Tries one set of flips against the best proposal so far.
-  void consider(const Ring& ring, std::span<const std::int32_t> material, std::span<const Single> chosen, Proposal& best) {
+  void consider(const Ring& ring, std::span<const std::int32_t> material, std::span<const Single> chosen,
+                Proposal& best) {
     double cost = 0;
     std::array<std::int32_t, Ring::kMost> changed;
     std::copy(material.begin(), material.end(), changed.begin());
@@ -128,7 +137,8 @@ class Repair {
       flips[f] = chosen[f].flip;
       changed[static_cast<std::size_t>(flips[f].slot)] = flips[f].to;
     }
-    const double reach = static_cast<double>(8 * chosen.size());  // no look-ahead can gain more than its nodes
+    const double reach =
+        static_cast<double>(8 * chosen.size());  // no look-ahead can gain more than its nodes
     if (cost - reach >= best.cost) return;
     if (!ring.manifold({changed.data(), material.size()})) return;
     cost += look_ahead(ring, {flips.data(), chosen.size()});
@@ -152,7 +162,8 @@ class Repair {
     std::vector<Single> singles;
     for (int c = 0; c < ring.size; ++c)
       for (const std::int32_t m : present)
-        if (m != own[static_cast<std::size_t>(c)]) singles.push_back({{c, m}, cost_of(ring.cell[static_cast<std::size_t>(c)], m)});
+        if (m != own[static_cast<std::size_t>(c)])
+          singles.push_back({{c, m}, cost_of(ring.cell[static_cast<std::size_t>(c)], m)});
     Proposal best;
     for (const Single& s : singles) consider(ring, material, {&s, 1}, best);
     if (best.count == 0 || best.cost > 0.9) pairs(ring, material, singles, best);
@@ -160,18 +171,22 @@ class Repair {
     if (best.count == 0 || best.cost > 0.9 * kFrozen) {
       std::int32_t most = present.front();
       for (const std::int32_t m : present)
-        if (std::count(material.begin(), material.end(), m) > std::count(material.begin(), material.end(), most)) most = m;
+        if (std::count(material.begin(), material.end(), m) >
+            std::count(material.begin(), material.end(), most))
+          most = m;
       return all_to(ring, material, most);
     }
     return best;
   }
-  void pairs(const Ring& ring, std::span<const std::int32_t> material, const std::vector<Single>& singles, Proposal& best) {
+  void pairs(const Ring& ring, std::span<const std::int32_t> material, const std::vector<Single>& singles,
+             Proposal& best) {
     for (std::size_t a = 0; a < singles.size(); ++a)
       for (std::size_t b = a + 1; b < singles.size(); ++b)
         if (singles[a].flip.slot != singles[b].flip.slot)
           consider(ring, material, std::array{singles[a], singles[b]}, best);
   }
-  void triples(const Ring& ring, std::span<const std::int32_t> material, const std::vector<Single>& singles, Proposal& best) {
+  void triples(const Ring& ring, std::span<const std::int32_t> material, const std::vector<Single>& singles,
+               Proposal& best) {
     for (std::size_t a = 0; a < singles.size(); ++a)
       for (std::size_t b = a + 1; b < singles.size(); ++b)
         for (std::size_t c = b + 1; c < singles.size(); ++c)
@@ -210,7 +225,8 @@ class Repair {
   bool wins(LocalId node) const {
     for (const std::int32_t item : around_[node])
       for (const LocalId other : mesh_.hexes[at(item / 8)])
-        if (other != node && (claim_[at(other)] < claim_[at(node)] || (claim_[at(other)] == claim_[at(node)] && other < node)))
+        if (other != node &&
+            (claim_[at(other)] < claim_[at(node)] || (claim_[at(other)] == claim_[at(node)] && other < node)))
           return false;
     return true;
   }
@@ -295,13 +311,13 @@ class Repair {
   const Fractions& fractions_;
   const FaceNeighbours& neighbours_;
   const NodeHexes& around_;
-  std::vector<std::uint8_t> changes_;   // per cell
-  std::vector<std::uint8_t> bad_;       // per node with a complete ring
-  std::vector<std::uint8_t> complete_;  // per node
-  std::vector<std::uint8_t> stale_;     // per node: its proposal must be made anew
-  std::vector<double> claim_;           // per node: cost of its proposal in this pass
+  std::vector<std::uint8_t> changes_;              // per cell
+  std::vector<std::uint8_t> bad_;                  // per node with a complete ring
+  std::vector<std::uint8_t> complete_;             // per node
+  std::vector<std::uint8_t> stale_;                // per node: its proposal must be made anew
+  std::vector<double> claim_;                      // per node: cost of its proposal in this pass
   std::unordered_map<LocalId, Stored> proposals_;  // of active nodes; looked up, never walked
-  std::vector<LocalId> active_;         // owned non-manifold nodes, ascending
+  std::vector<LocalId> active_;                    // owned non-manifold nodes, ascending
   std::vector<LocalId> claimed_ghosts_, changed_cells_, touched_;
   mutable std::array<std::int32_t, Ring::kMost> scratch_{};
   bool last_resort_ = false;
@@ -309,8 +325,8 @@ class Repair {
 
 }  // namespace
 
-ManifoldReport resolve_non_manifold(HexMesh& mesh, const Fractions& fractions, const FaceNeighbours& neighbours,
-                                    const NodeHexes& around) {
+ManifoldReport resolve_non_manifold(HexMesh& mesh, const Fractions& fractions,
+                                    const FaceNeighbours& neighbours, const NodeHexes& around) {
   return Repair(mesh, fractions, neighbours, around).run();
 }
 
@@ -324,7 +340,9 @@ bool interfaces_are_manifold(const HexMesh& mesh, const FaceNeighbours& neighbou
       seen[at(n)] = 1;
       material.clear();
       for (const std::int32_t item : around[n]) material.push_back(mesh.material[at(item / 8)]);
-      if (std::all_of(material.begin(), material.end(), [&](std::int32_t m) { return m == material.front(); })) continue;
+      if (std::all_of(material.begin(), material.end(),
+                      [&](std::int32_t m) { return m == material.front(); }))
+        continue;
       if (!ring_of(mesh, neighbours, around, n).manifold(material)) return false;
     }
   }

@@ -7,7 +7,8 @@
 namespace sculpt {
 namespace {
 
-// Ring of a node inside a lattice: its cells ascend as x fastest, so they are the corners of a 2x2x2 block in order.
+// Ring of a node inside a lattice: its cells ascend as x fastest, so they are the corners of a 2x2x2 block in
+// order.
 constexpr std::array<std::uint64_t, 8> kBlock = [] {
   std::array<std::uint64_t, 8> touching{};
   for (std::size_t c = 0; c < 8; ++c)

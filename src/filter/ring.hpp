@@ -15,14 +15,17 @@ struct Ring {
   std::array<LocalId, kMost> cell;
   std::array<std::uint64_t, kMost> touching;  // cells sharing a face with this one
 
-  [[nodiscard]] std::uint64_t all() const { return size == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << size) - 1; }
+  [[nodiscard]] std::uint64_t all() const {
+    return size == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << size) - 1;
+  }
 
   // Whether the set is empty or one face-connected piece.
   [[nodiscard]] bool connected(std::uint64_t set) const {
     std::uint64_t reached = set & (~set + 1), front = reached;
     while (front != 0) {
       std::uint64_t next = 0;
-      for (std::uint64_t f = front; f != 0; f &= f - 1) next |= touching[static_cast<std::size_t>(std::countr_zero(f))];
+      for (std::uint64_t f = front; f != 0; f &= f - 1)
+        next |= touching[static_cast<std::size_t>(std::countr_zero(f))];
       front = next & set & ~reached;
       reached |= front;
     }
@@ -46,7 +49,9 @@ struct Ring {
   }
 };
 
-// The ring of a node of an inner cell, cells ascending. Throws Error for a node with more than Ring::kMost cells.
-[[nodiscard]] Ring ring_of(const HexMesh& mesh, const FaceNeighbours& neighbours, const NodeHexes& around, LocalId node);
+// The ring of a node of an inner cell, cells ascending. Throws Error for a node with more than Ring::kMost
+// cells.
+[[nodiscard]] Ring ring_of(const HexMesh& mesh, const FaceNeighbours& neighbours, const NodeHexes& around,
+                           LocalId node);
 
 }  // namespace sculpt

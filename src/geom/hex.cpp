@@ -56,7 +56,8 @@ bool all_positive(const Coefficients& c, int depth) {
   halves(low, 3, quarter[0], quarter[1]);
   halves(high, 3, quarter[2], quarter[3]);
   for (std::size_t q = 0; q < 4; ++q) halves(quarter[q], 9, part[2 * q], part[2 * q + 1]);
-  return std::all_of(part.begin(), part.end(), [&](const Coefficients& s) { return all_positive(s, depth - 1); });
+  return std::all_of(part.begin(), part.end(),
+                     [&](const Coefficients& s) { return all_positive(s, depth - 1); });
 }
 
 }  // namespace
@@ -106,7 +107,8 @@ bool is_positive_inside(const HexCorners& p, int depth) {
 double shortest_edge(const HexCorners& p) {
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < 8; ++c)
-    for (const int n : kCornerNeighbours[c]) shortest = std::min(shortest, norm(p[static_cast<std::size_t>(n)] - p[c]));
+    for (const int n : kCornerNeighbours[c])
+      shortest = std::min(shortest, norm(p[static_cast<std::size_t>(n)] - p[c]));
   return shortest;
 }
 

@@ -156,7 +156,8 @@ class NumberStream {
     const char* const start = text_.bytes.data() + (offset - text_.offset);
     const char* const end = text_.bytes.data() + text_.bytes.size() - 1;
     const std::string found(start, std::find_if(start, end, Text::separates));
-    throw Error(fmt::format("{}found {}, expected {}", file_.place(offset), sculpt::quoted(found), Text::expected()));
+    throw Error(
+        fmt::format("{}found {}, expected {}", file_.place(offset), sculpt::quoted(found), Text::expected()));
   }
 
   const TextFile& file_;

@@ -7,18 +7,21 @@ namespace sculpt {
 std::uint8_t face_sides(const HexMesh& mesh, LocalId hex, int face) {
   std::uint8_t sides = 0xff;
   for (const int c : kFaces[static_cast<std::size_t>(face)])
-    sides &= mesh.box_sides[static_cast<std::size_t>(mesh.hexes[static_cast<std::size_t>(hex)][static_cast<std::size_t>(c)])];
+    sides &= mesh.box_sides[static_cast<std::size_t>(
+        mesh.hexes[static_cast<std::size_t>(hex)][static_cast<std::size_t>(c)])];
   return sides;
 }
 
-NodeHexes::NodeHexes(const HexMesh& mesh) : offset_(mesh.position.size() + 1, 0), items_(mesh.hexes.size() * 8) {
+NodeHexes::NodeHexes(const HexMesh& mesh)
+    : offset_(mesh.position.size() + 1, 0), items_(mesh.hexes.size() * 8) {
   for (const Hex& hex : mesh.hexes)
     for (const LocalId n : hex) ++offset_[static_cast<std::size_t>(n) + 1];
   for (std::size_t n = 1; n < offset_.size(); ++n) offset_[n] += offset_[n - 1];
   std::vector<std::int64_t> at(offset_.begin(), offset_.end() - 1);
   for (std::size_t h = 0; h < mesh.hexes.size(); ++h)
     for (std::size_t c = 0; c < 8; ++c)
-      items_[static_cast<std::size_t>(at[static_cast<std::size_t>(mesh.hexes[h][c])]++)] = static_cast<std::int32_t>(8 * h + c);
+      items_[static_cast<std::size_t>(at[static_cast<std::size_t>(mesh.hexes[h][c])]++)] =
+          static_cast<std::int32_t>(8 * h + c);
 }
 
 std::size_t NodeHexes::largest() const {
@@ -45,9 +48,9 @@ FaceNeighbours face_neighbours(const HexMesh& mesh) {
   for (LocalId k = 0; k < nz; ++k)
     for (LocalId j = 0; j < ny; ++j)
       for (LocalId i = 0; i < nx; ++i, ++h)
-        all[static_cast<std::size_t>(h)] = {j > 0 ? h - nx : kNone,           i + 1 < nx ? h + 1 : kNone,
-                                            j + 1 < ny ? h + nx : kNone,      i > 0 ? h - 1 : kNone,
-                                            k > 0 ? h - nx * ny : kNone,      k + 1 < nz ? h + nx * ny : kNone};
+        all[static_cast<std::size_t>(h)] = {j > 0 ? h - nx : kNone,      i + 1 < nx ? h + 1 : kNone,
+                                            j + 1 < ny ? h + nx : kNone, i > 0 ? h - 1 : kNone,
+                                            k > 0 ? h - nx * ny : kNone, k + 1 < nz ? h + nx * ny : kNone};
   return all;
 }
 

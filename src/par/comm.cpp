@@ -56,7 +56,8 @@ std::string Comm::broadcast(std::string text, int root) const {
   MPI_Bcast(&size, 1, MPI_UINT64_T, root, comm_);
   text.resize(size);
   for (std::size_t at = 0; at < size; at += kPiece)
-    MPI_Bcast(text.data() + at, static_cast<int>(std::min<std::size_t>(kPiece, size - at)), MPI_CHAR, root, comm_);
+    MPI_Bcast(text.data() + at, static_cast<int>(std::min<std::size_t>(kPiece, size - at)), MPI_CHAR, root,
+              comm_);
   return text;
 }
 

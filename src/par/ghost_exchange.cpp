@@ -4,7 +4,8 @@
 
 namespace sculpt {
 
-GhostExchange::GhostExchange(const Comm& comm, std::span<const GlobalId> ids, std::span<const std::int32_t> owner)
+GhostExchange::GhostExchange(const Comm& comm, std::span<const GlobalId> ids,
+                             std::span<const std::int32_t> owner)
     : comm_(comm) {
   const auto ranks = static_cast<std::size_t>(comm.size());
   std::vector<std::vector<GlobalId>> wanted(ranks);
@@ -40,7 +41,8 @@ GhostExchange::Messages GhostExchange::swap(const std::vector<Link>& to, const M
   std::vector<MPI_Request> requests(to.size());
   for (std::size_t l = 0; l < to.size(); ++l) {
     check(out[l].size() <= static_cast<std::size_t>(INT_MAX), "ghost exchange: a message of more than 2 GB");
-    MPI_Isend(out[l].data(), static_cast<int>(out[l].size()), MPI_CHAR, to[l].rank, kTag, comm_.handle(), &requests[l]);
+    MPI_Isend(out[l].data(), static_cast<int>(out[l].size()), MPI_CHAR, to[l].rank, kTag, comm_.handle(),
+              &requests[l]);
   }
   Messages in(from.size());
   for (std::size_t l = 0; l < from.size(); ++l) {

@@ -11,7 +11,8 @@ struct Keyed {
 };
 
 // Cuts ascending keys into one piece per rank by equal ranges of the key space.
-std::vector<std::vector<Keyed>> by_range(const Comm& comm, std::span<const GlobalId> keys, std::span<const std::int32_t> group) {
+std::vector<std::vector<Keyed>> by_range(const Comm& comm, std::span<const GlobalId> keys,
+                                         std::span<const std::int32_t> group) {
   const GlobalId greatest = comm.max(keys.empty() ? GlobalId{0} : keys.back());
   const GlobalId width = greatest / comm.size() + 1;
   std::vector<std::vector<Keyed>> pieces(static_cast<std::size_t>(comm.size()));
@@ -21,10 +22,12 @@ std::vector<std::vector<Keyed>> by_range(const Comm& comm, std::span<const Globa
 }
 
 // Sends the numbers back in the order in which the keys came.
-std::vector<GlobalId> answer(const Comm& comm, const std::vector<std::vector<GlobalId>>& replies, std::size_t count) {
+std::vector<GlobalId> answer(const Comm& comm, const std::vector<std::vector<GlobalId>>& replies,
+                             std::size_t count) {
   std::vector<GlobalId> numbers;
   numbers.reserve(count);
-  for (const auto& piece : comm.all_to_all(replies)) numbers.insert(numbers.end(), piece.begin(), piece.end());
+  for (const auto& piece : comm.all_to_all(replies))
+    numbers.insert(numbers.end(), piece.begin(), piece.end());
   return numbers;
 }
 
@@ -35,7 +38,8 @@ std::vector<GlobalId> group_starts(const std::vector<std::int64_t>& counts) {
   return start;
 }
 
-std::vector<GlobalId> grouped_alone(std::span<const std::int32_t> group, std::size_t groups, std::vector<std::int64_t>& counts) {
+std::vector<GlobalId> grouped_alone(std::span<const std::int32_t> group, std::size_t groups,
+                                    std::vector<std::int64_t>& counts) {
   counts.assign(groups, 0);
   for (const std::int32_t g : group) ++counts[static_cast<std::size_t>(g)];
   std::vector<GlobalId> next = group_starts(counts), numbers(group.size());
@@ -64,12 +68,14 @@ std::vector<GlobalId> dense_numbers(const Comm& comm, std::span<const GlobalId> 
   std::vector<std::vector<GlobalId>> replies(asked.size());
   for (std::size_t r = 0; r < asked.size(); ++r)
     for (const Keyed& k : asked[r])
-      replies[r].push_back(before + (std::lower_bound(distinct.begin(), distinct.end(), k.key) - distinct.begin()));
+      replies[r].push_back(before +
+                           (std::lower_bound(distinct.begin(), distinct.end(), k.key) - distinct.begin()));
   return answer(comm, replies, keys.size());
 }
 
-std::vector<GlobalId> grouped_numbers(const Comm& comm, std::span<const GlobalId> keys, std::span<const std::int32_t> group,
-                                      std::size_t groups, std::vector<std::int64_t>& counts) {
+std::vector<GlobalId> grouped_numbers(const Comm& comm, std::span<const GlobalId> keys,
+                                      std::span<const std::int32_t> group, std::size_t groups,
+                                      std::vector<std::int64_t>& counts) {
   if (comm.size() == 1) return grouped_alone(group, groups, counts);
   const auto asked = comm.all_to_all(by_range(comm, keys, group));
   struct Place {
@@ -83,7 +89,8 @@ std::vector<GlobalId> grouped_numbers(const Comm& comm, std::span<const GlobalId
     for (std::size_t i = 0; i < asked[r].size(); ++i)
       places.push_back({asked[r][i], static_cast<std::int32_t>(r), static_cast<std::int32_t>(i)});
   }
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.item.key < b.item.key; });
+  std::sort(places.begin(), places.end(),
+            [](const Place& a, const Place& b) { return a.item.key < b.item.key; });
   std::vector<std::int64_t> next(groups, 0);
   for (const Place& p : places) ++next[static_cast<std::size_t>(p.item.group)];
   counts = next;
@@ -92,7 +99,8 @@ std::vector<GlobalId> grouped_numbers(const Comm& comm, std::span<const GlobalId
   const std::vector<GlobalId> start = group_starts(counts);
   for (std::size_t g = 0; g < groups; ++g) next[g] += start[g];
   for (const Place& p : places)
-    replies[static_cast<std::size_t>(p.rank)][static_cast<std::size_t>(p.slot)] = next[static_cast<std::size_t>(p.item.group)]++;
+    replies[static_cast<std::size_t>(p.rank)][static_cast<std::size_t>(p.slot)] =
+        next[static_cast<std::size_t>(p.item.group)]++;
   return answer(comm, replies, keys.size());
 }
 

@@ -26,8 +26,14 @@ constexpr std::array<std::array<int, 3>, 8> kCornerFaces = [] {
 
 class Pillower {
  public:
-  Pillower(const HexMesh& mesh, std::span<const std::int32_t> label, std::span<const std::uint8_t> drop, double offset)
-      : mesh_(mesh), label_(label), drop_(drop), offset_(offset), neighbours_(face_neighbours(mesh)), kept_layers_(mesh.ghost_layers - 1) {}
+  Pillower(const HexMesh& mesh, std::span<const std::int32_t> label, std::span<const std::uint8_t> drop,
+           double offset)
+      : mesh_(mesh),
+        label_(label),
+        drop_(drop),
+        offset_(offset),
+        neighbours_(face_neighbours(mesh)),
+        kept_layers_(mesh.ghost_layers - 1) {}
 
   Pillowed run(const Comm& comm) {
     mark_nodes();
@@ -56,7 +62,8 @@ class Pillower {
     for (LocalId h = 0; h < mesh_.size(); ++h)
       for (int f = 0; f < 6; ++f)
         if (pillowed(h, f))
-          for (const int c : kFaces[static_cast<std::size_t>(f)]) on_boundary_[at(mesh_.hexes[at(h)][static_cast<std::size_t>(c)])] = 1;
+          for (const int c : kFaces[static_cast<std::size_t>(f)])
+            on_boundary_[at(mesh_.hexes[at(h)][static_cast<std::size_t>(c)])] = 1;
   }
 
   void add_node(LocalId from, GlobalId copy, const Vec3& position) {
@@ -70,7 +77,8 @@ class Pillower {
     result_.copied.push_back(copy != 0);
   }
 
-  // Gives every old node, followed by its copies, a new number; corner_ tells which one a hex takes at a corner.
+  // Gives every old node, followed by its copies, a new number; corner_ tells which one a hex takes at a
+  // corner.
   void number_nodes() {
     const NodeHexes around(mesh_);
     corner_.resize(mesh_.hexes.size());
@@ -80,12 +88,14 @@ class Pillower {
       first_[at(n)] = static_cast<LocalId>(result_.mesh.position.size());
       add_node(n, 0, mesh_.position[at(n)]);
       const auto items = around[n];
-      for (const std::int32_t item : items) corner_[at(item / 8)][static_cast<std::size_t>(item % 8)] = first_[at(n)];
+      for (const std::int32_t item : items)
+        corner_[at(item / 8)][static_cast<std::size_t>(item % 8)] = first_[at(n)];
       if (on_boundary_[at(n)]) copy_node(n, items);
     }
   }
 
-  // One copy for every face-connected group of equally labelled hexes at the node that has a pillowed face there.
+  // One copy for every face-connected group of equally labelled hexes at the node that has a pillowed face
+  // there.
   void copy_node(LocalId node, std::span<const std::int32_t> items) {
     done_.assign(items.size(), 0);
     GlobalId copies = 0;

@@ -39,14 +39,13 @@ InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells) {
 }
 
 SmoothOptions smooth_options(const Deck& deck, bool pure_cells) {
-  constexpr double kTrueSurfaces = 2.5;  // the interface is known better than from voxels, so it is held better
+  constexpr double kTrueSurfaces =
+      2.5;  // the interface is known better than from voxels, so it is held better
 
   SmoothOptions s;
   s.laplacian_passes = std::min(deck.laplacian_iters, kVolumePasses);
   s.improve_sweeps = deck.max_opt_iters;
-  s.fidelity = pure_cells || deck.smooth == kSmoothNoSurfaceProjections
-                   ? 1
-                   : kTrueSurfaces;
+  s.fidelity = pure_cells || deck.smooth == kSmoothNoSurfaceProjections ? 1 : kTrueSurfaces;
   s.improve_below = deck.opt_threshold;
   s.target = deck.pcol_threshold;
   s.target_rounds = deck.max_pcol_iters;

@@ -27,7 +27,8 @@ void print_end(const Comm& comm, const Log& log, double seconds);
 class VolumeTable {
  public:
   // Collective.
-  VolumeTable(const Comm& comm, const HexMesh& cells, const Fractions& fractions, const MaterialTable& materials);
+  VolumeTable(const Comm& comm, const HexMesh& cells, const Fractions& fractions,
+              const MaterialTable& materials);
   void compare(const Comm& comm, const HexMesh& mesh, const Log& log) const;
 
  private:

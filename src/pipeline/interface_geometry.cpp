@@ -27,7 +27,8 @@ std::vector<std::pair<std::int32_t, std::int32_t>> materials_at_nodes(const HexM
   return found;
 }
 
-// A point of the surface between two materials beside one of its curve nodes, and the weight of a deviation there.
+// A point of the surface between two materials beside one of its curve nodes, and the weight of a deviation
+// there.
 struct SurfacePoint {
   Vec3 position;
   Weight weight;
@@ -74,8 +75,10 @@ Geometry interface_geometry(Pillowed& pillowed, const HexMesh& cells, const Inte
   HexMesh& mesh = pillowed.mesh;
   Geometry g;
   g.index.assign(mesh.position.size(), kNone);
-  const bool stacked = std::find(pillowed.copied.begin(), pillowed.copied.end(), std::uint8_t{2}) != pillowed.copied.end();
-  const auto materials = stacked ? materials_at_nodes(mesh) : std::vector<std::pair<std::int32_t, std::int32_t>>{};
+  const bool stacked =
+      std::find(pillowed.copied.begin(), pillowed.copied.end(), std::uint8_t{2}) != pillowed.copied.end();
+  const auto materials =
+      stacked ? materials_at_nodes(mesh) : std::vector<std::pair<std::int32_t, std::int32_t>>{};
   for (std::size_t n = 0; n < pillowed.source.size(); ++n) {
     const LocalId entry = faces.index_of[at(pillowed.source[n])];
     if (entry == kNone || pillowed.copied[n] == 1) continue;

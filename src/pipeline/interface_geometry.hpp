@@ -9,12 +9,12 @@
 
 namespace sculpt {
 
-// The second pillow with its sources traced back to the mesh before the first. copied: 1 made by the first pillow (or
-// from such a node), 2 made by the second from an old node.
+// The second pillow with its sources traced back to the mesh before the first. copied: 1 made by the first
+// pillow (or from such a node), 2 made by the second from an old node.
 [[nodiscard]] Pillowed stacked(const Pillowed& first, Pillowed second);
 
-// Local. Old interface nodes stay where the contour has them. Copies that a surface pillow made of curve nodes lie on
-// the surface: they are put a third of the way into its quads.
+// Local. Old interface nodes stay where the contour has them. Copies that a surface pillow made of curve
+// nodes lie on the surface: they are put a third of the way into its quads.
 [[nodiscard]] Geometry interface_geometry(Pillowed& pillowed, const HexMesh& cells, const Interfaces& faces,
                                           const std::vector<Weight>& weights);
 

@@ -13,9 +13,15 @@ std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
 }  // namespace
 
 ActiveSet::ActiveSet(HexMesh& mesh)
-    : mesh_(mesh), around_(mesh), quality_(mesh.hexes.size()), marked_(mesh.position.size(), 0),
-      changed_(mesh.position.size(), 0), near_(mesh.position.size(), 0), far_moved_(mesh.position.size(), 0),
-      chosen_(static_cast<std::size_t>(mesh.colours)), dirty_(mesh.hexes.size(), 0) {
+    : mesh_(mesh),
+      around_(mesh),
+      quality_(mesh.hexes.size()),
+      marked_(mesh.position.size(), 0),
+      changed_(mesh.position.size(), 0),
+      near_(mesh.position.size(), 0),
+      far_moved_(mesh.position.size(), 0),
+      chosen_(static_cast<std::size_t>(mesh.colours)),
+      dirty_(mesh.hexes.size(), 0) {
   refresh_all_quality();
 }
 
@@ -49,7 +55,8 @@ void ActiveSet::spread(std::vector<std::uint8_t>& marks, std::vector<LocalId>& f
     marks[at(n)] = 1;
     front.push_back(n);
   };
-  if (before > mesh_.position.size() / 32) {  // one pass over all hexes is cheaper than a walk from node to node
+  if (before >
+      mesh_.position.size() / 32) {  // one pass over all hexes is cheaper than a walk from node to node
     for (const LocalId n : front) marks[at(n)] = 2;
     for (const Hex& hex : mesh_.hexes) {
       bool touches = false;
@@ -126,7 +133,8 @@ std::int64_t ActiveSet::sweep(const std::function<bool(LocalId)>& step, double f
   return comm().sum(moves);
 }
 
-// Starts loading what the visits after the next one will read: hexes first, their positions when those are there.
+// Starts loading what the visits after the next one will read: hexes first, their positions when those are
+// there.
 void ActiveSet::fetch_ahead(LocalId hexes_of, LocalId positions_of) const {
   for (const std::int32_t item : around_[hexes_of]) __builtin_prefetch(&mesh_.hexes[at(item / 8)]);
   for (const std::int32_t item : around_[positions_of])

@@ -1,6 +1,6 @@
 #pragma once
-// What all smoothing phases share: quality of each hex, sets of nodes to move, and the sweep that moves them colour by
-// colour with the exchange in between. Collective unless said otherwise.
+// What all smoothing phases share: quality of each hex, sets of nodes to move, and the sweep that moves them
+// colour by colour with the exchange in between. Collective unless said otherwise.
 #include <array>
 #include <functional>
 #include <vector>
@@ -17,15 +17,21 @@ class ActiveSet {
   [[nodiscard]] HexMesh& mesh() const { return mesh_; }
   [[nodiscard]] const Comm& comm() const { return mesh_.node_exchange.comm(); }
   [[nodiscard]] const NodeHexes& around() const { return around_; }
-  [[nodiscard]] bool owned(LocalId node) const { return mesh_.node_owner[static_cast<std::size_t>(node)] == comm().rank(); }
-  [[nodiscard]] const std::vector<float>& quality() const { return quality_; }  // scaled Jacobian per local hex
+  [[nodiscard]] bool owned(LocalId node) const {
+    return mesh_.node_owner[static_cast<std::size_t>(node)] == comm().rank();
+  }
+  [[nodiscard]] const std::vector<float>& quality() const {
+    return quality_;
+  }  // scaled Jacobian per local hex
 
-  // Chooses the owned nodes of hexes below `quality` and of `layers` layers of hexes around them. only_near: of these
-  // the ones in a hex with a node that moved by more than `far` in the last sweep. Returns their number on all ranks.
+  // Chooses the owned nodes of hexes below `quality` and of `layers` layers of hexes around them. only_near:
+  // of these the ones in a hex with a node that moved by more than `far` in the last sweep. Returns their
+  // number on all ranks.
   std::int64_t choose(double quality, int layers, bool only_near);
 
-  // Moves the chosen nodes: step(node) changes the position of one owned node and tells whether it did. Nodes of one
-  // colour are visited in ascending order before the ghosts learn of their moves. Returns the moves on all ranks.
+  // Moves the chosen nodes: step(node) changes the position of one owned node and tells whether it did. Nodes
+  // of one colour are visited in ascending order before the ghosts learn of their moves. Returns the moves on
+  // all ranks.
   std::int64_t sweep(const std::function<bool(LocalId)>& step, double far);
 
   struct Worst {
@@ -37,12 +43,13 @@ class ActiveSet {
   // Smallest corner determinant, in cells, of the hexes below 0.1; 1 when there are none.
   [[nodiscard]] double least_determinant(const Vec3& scale) const;
   void refresh_all_quality();
-  // Gives hexes whose Jacobian is not positive somewhere inside the quality 0 until a node of theirs moves. Returns
-  // their number on all ranks.
+  // Gives hexes whose Jacobian is not positive somewhere inside the quality 0 until a node of theirs moves.
+  // Returns their number on all ranks.
   std::int64_t mark_folded();
 
  private:
-  // Marks the nodes of all hexes that have a node of `front` (all marked 1); front becomes the newly marked ones.
+  // Marks the nodes of all hexes that have a node of `front` (all marked 1); front becomes the newly marked
+  // ones.
   void spread(std::vector<std::uint8_t>& marks, std::vector<LocalId>& front);
   void fetch_ahead(LocalId hexes_of, LocalId positions_of) const;
   void exchange_moves(double far_squared, int colour);
@@ -52,13 +59,13 @@ class ActiveSet {
   HexMesh& mesh_;
   NodeHexes around_;
   std::vector<float> quality_;
-  std::vector<std::uint8_t> marked_;     // per node
-  std::vector<std::uint8_t> changed_;    // per node: to be told to the ghosts
-  std::vector<std::uint8_t> near_;       // per node: see choose
-  std::vector<std::uint8_t> far_moved_;  // per node: moved by more than `far` in this sweep
+  std::vector<std::uint8_t> marked_;          // per node
+  std::vector<std::uint8_t> changed_;         // per node: to be told to the ghosts
+  std::vector<std::uint8_t> near_;            // per node: see choose
+  std::vector<std::uint8_t> far_moved_;       // per node: moved by more than `far` in this sweep
   std::vector<std::vector<LocalId>> chosen_;  // per colour
-  std::vector<LocalId> moved_;           // in this sweep, ghosts included
-  std::vector<std::uint8_t> dirty_;      // per hex
+  std::vector<LocalId> moved_;                // in this sweep, ghosts included
+  std::vector<std::uint8_t> dirty_;           // per hex
 };
 
 }  // namespace sculpt

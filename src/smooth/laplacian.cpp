@@ -18,13 +18,15 @@ void mark_layer(const HexMesh& mesh, const std::vector<std::uint8_t>& from, std:
 
 // Owned volume nodes in hexes with an interface node and in the hexes around those, ascending.
 std::vector<LocalId> nodes_near_interfaces(const HexMesh& mesh, const Geometry& geometry) {
-  std::vector<std::uint8_t> interface(mesh.position.size(), 0), beside(mesh.position.size(), 0), near(mesh.position.size(), 0);
+  std::vector<std::uint8_t> interface(mesh.position.size(), 0), beside(mesh.position.size(), 0),
+      near(mesh.position.size(), 0);
   for (std::size_t n = 0; n < interface.size(); ++n) interface[n] = geometry.index[n] != kNone;
   mark_layer(mesh, interface, beside);
   mark_layer(mesh, beside, near);
   std::vector<LocalId> chosen;
   for (LocalId n = 0; n < mesh.nodes(); ++n)
-    if (near[at(n)] && !interface[at(n)] && mesh.node_owner[at(n)] == mesh.node_exchange.comm().rank()) chosen.push_back(n);
+    if (near[at(n)] && !interface[at(n)] && mesh.node_owner[at(n)] == mesh.node_exchange.comm().rank())
+      chosen.push_back(n);
   return chosen;
 }
 
@@ -44,7 +46,8 @@ Vec3 towards_neighbours(const HexMesh& mesh, const NodeHexes& around, LocalId no
 
 }  // namespace
 
-void laplacian_passes(HexMesh& mesh, const NodeHexes& around, const Geometry& geometry, int passes, const Log& log) {
+void laplacian_passes(HexMesh& mesh, const NodeHexes& around, const Geometry& geometry, int passes,
+                      const Log& log) {
   const std::vector<LocalId> nodes = nodes_near_interfaces(mesh, geometry);
   std::vector<Vec3> moves(nodes.size());
   for (int pass = 1; pass <= passes; ++pass) {

@@ -6,8 +6,9 @@
 namespace sculpt {
 namespace {
 
-constexpr double kStepOfEdge = 0.5;   // longest step, of the shortest edge at the node
-constexpr double kStepFloor = 0.2;    // an edge counts at least this long there, in cells, so that collapsed ones open
+constexpr double kStepOfEdge = 0.5;  // longest step, of the shortest edge at the node
+constexpr double kStepFloor =
+    0.2;  // an edge counts at least this long there, in cells, so that collapsed ones open
 
 std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
 
@@ -33,7 +34,8 @@ bool newton_direction(const double (&hessian)[6], const Vec3& g, Vec3& d) {
   const double trace = hessian[0] + hessian[3] + hessian[5];
   double add = 0;
   for (int attempt = 0; attempt < 14; ++attempt) {
-    const double h[6] = {hessian[0] + add, hessian[1], hessian[2], hessian[3] + add, hessian[4], hessian[5] + add};
+    const double h[6] = {hessian[0] + add, hessian[1], hessian[2],
+                         hessian[3] + add, hessian[4], hessian[5] + add};
     if (descend(h, g, d)) return std::isfinite(dot(d, d));
     add = attempt == 0 ? 1e-3 * std::fabs(trace) + 1e-30 : 10 * add;
   }
@@ -84,8 +86,10 @@ bool NodeStep::newton(LocalId node, const StepRules& rules) {
   if (entry != kNone) {
     const auto& w = geometry_.weight[at(entry)];
     off = deviation(entry, node);
-    at0.gradient += 2 * price_of * Vec3{w[0] * off.x + w[1] * off.y + w[2] * off.z, w[1] * off.x + w[3] * off.y + w[4] * off.z,
-                                        w[2] * off.x + w[4] * off.y + w[5] * off.z};
+    at0.gradient +=
+        2 * price_of *
+        Vec3{w[0] * off.x + w[1] * off.y + w[2] * off.z, w[1] * off.x + w[3] * off.y + w[4] * off.z,
+             w[2] * off.x + w[4] * off.y + w[5] * off.z};
     for (std::size_t i = 0; i < 6; ++i) at0.hessian[i] += 2 * price_of * w[i];
     at0.energy += price_of * quadratic(w, off);
   }
@@ -105,7 +109,9 @@ bool NodeStep::newton(LocalId node, const StepRules& rules) {
   }
   for (int halving = 0; halving < 6; ++halving, step = 0.5 * step) {
     const Star::Value there = star_.value(step, rules.power, rules.eps);
-    const double energy = entry == kNone ? there.energy : there.energy + price_of * quadratic(geometry_.weight[at(entry)], off + step);
+    const double energy = entry == kNone
+                              ? there.energy
+                              : there.energy + price_of * quadratic(geometry_.weight[at(entry)], off + step);
     if (!(energy < at0.energy) || there.not_positive > at0.not_positive) continue;
     if (rules.guarded) {
       const Star::Shape shape = star_.shape(step);
@@ -134,7 +140,8 @@ bool NodeStep::climb(LocalId node, double least_edge) {
       HexCorners hex = mesh_.corners(item / 8);
       for (Vec3& corner : hex) corner = scaled(corner - p, scale_);
       const auto moving = static_cast<std::size_t>(item % 8);
-      std::array<int, 4> near{item % 8, kCornerNeighbours[moving][0], kCornerNeighbours[moving][1], kCornerNeighbours[moving][2]};
+      std::array<int, 4> near{item % 8, kCornerNeighbours[moving][0], kCornerNeighbours[moving][1],
+                              kCornerNeighbours[moving][2]};
       for (const int c : near) {
         const double here = corner_scaled_jacobian(hex, c);
         if (here > now.scaled_jacobian + kBand) continue;
@@ -149,7 +156,8 @@ bool NodeStep::climb(LocalId node, double least_edge) {
         corners.emplace_back(here, held_on_box(gradient, sides));
       }
     }
-    std::stable_sort(corners.begin(), corners.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::stable_sort(corners.begin(), corners.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
     if (corners.size() > kMost) corners.resize(kMost);
     // The shortest vector in the hull of the gradients raises all of them (Frank-Wolfe).
     Vec3 up = corners.front().second;
@@ -167,7 +175,8 @@ bool NodeStep::climb(LocalId node, double least_edge) {
     bool raised = false;
     for (int halving = 0; halving < 7 && !raised; ++halving, step = 0.5 * step) {
       const Star::Shape there = star_.shape(step);
-      if (there.scaled_jacobian <= now.scaled_jacobian + 1e-4 || there.edge < std::min(now.edge, least_edge)) continue;
+      if (there.scaled_jacobian <= now.scaled_jacobian + 1e-4 || there.edge < std::min(now.edge, least_edge))
+        continue;
       for (std::size_t d = 0; d < 3; ++d)
         if (step[d] != 0) p[d] += step[d] / scale_[d];
       raised = any = true;

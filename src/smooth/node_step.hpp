@@ -1,6 +1,6 @@
 #pragma once
-// One step of one node: a guarded Newton step on the energy of its star, or a climb of its worst corner. Local; the
-// caller sees to it that no neighbour moves at the same time.
+// One step of one node: a guarded Newton step on the energy of its star, or a climb of its worst corner.
+// Local; the caller sees to it that no neighbour moves at the same time.
 #include "sculpt/smooth/smooth.hpp"
 #include "smooth/star.hpp"
 
@@ -8,20 +8,22 @@ namespace sculpt {
 
 // What a Newton step minimises and must respect.
 struct StepRules {
-  int power = 1;                       // r of the energy sum s^r
-  double eps = 1e-9;                   // regularisation of determinants
+  int power = 1;      // r of the energy sum s^r
+  double eps = 1e-9;  // regularisation of determinants
   Star::Target target_lengths = Star::Target::kPresent;
-  double penalty = 1;                  // weight of deviations of interface nodes, per tetrahedron
-  bool guarded = true;                 // the mesh is valid: neither quality nor edges may suffer
-  double least_quality = 0.3;          // guarded: the worst corner may fall, but not below this
-  double least_edge = 0.1;             // guarded: likewise for the shortest edge, in cells
-  double least_move = 1e-3;            // shorter steps are not made, in cells
-  double release_curves_below = -1;    // curve nodes with a worse corner deviate at a tenth of the price; negative: tenfold
+  double penalty = 1;          // weight of deviations of interface nodes, per tetrahedron
+  bool guarded = true;         // the mesh is valid: neither quality nor edges may suffer
+  double least_quality = 0.3;  // guarded: the worst corner may fall, but not below this
+  double least_edge = 0.1;     // guarded: likewise for the shortest edge, in cells
+  double least_move = 1e-3;    // shorter steps are not made, in cells
+  double release_curves_below =
+      -1;  // curve nodes with a worse corner deviate at a tenth of the price; negative: tenfold
 };
 
 class NodeStep {
  public:
-  NodeStep(HexMesh& mesh, const NodeHexes& around, const Geometry& geometry) : mesh_(mesh), around_(around), geometry_(geometry) {}
+  NodeStep(HexMesh& mesh, const NodeHexes& around, const Geometry& geometry)
+      : mesh_(mesh), around_(around), geometry_(geometry) {}
 
   // Coordinates are multiplied by this before lengths are compared: 1 / cell size.
   void set_scale(const Vec3& scale) { scale_ = scale; }

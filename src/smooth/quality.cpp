@@ -7,7 +7,8 @@
 namespace sculpt {
 namespace {
 
-SCULPT_KERNEL void measure(const Hex* hexes, const Vec3* position, const LocalId* which, std::size_t count, HexQuality& out) {
+SCULPT_KERNEL void measure(const Hex* hexes, const Vec3* position, const LocalId* which, std::size_t count,
+                           HexQuality& out) {
   Vec3Lanes corner[8];
   for (std::size_t c = 0; c < 8; ++c) {
     const Vec3* p[8];
@@ -33,7 +34,8 @@ SCULPT_KERNEL void measure(const Hex* hexes, const Vec3* position, const LocalId
 
 }  // namespace
 
-HexQuality quality_of(const std::vector<Hex>& hexes, const std::vector<Vec3>& position, std::span<const LocalId> which) {
+HexQuality quality_of(const std::vector<Hex>& hexes, const std::vector<Vec3>& position,
+                      std::span<const LocalId> which) {
   HexQuality quality;
   measure(hexes.data(), position.data(), which.data(), which.size(), quality);
   return quality;

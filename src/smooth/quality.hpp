@@ -16,7 +16,9 @@ inline constexpr double kNeverFolds = 0.6;
 struct HexQuality {
   std::array<double, 8> scaled_jacobian, shortest_edge;
 };
-// Of up to eight hexes; entries beyond `which.size()` are meaningless. Agrees with scaled_jacobian() up to rounding.
-[[nodiscard]] HexQuality quality_of(const std::vector<Hex>& hexes, const std::vector<Vec3>& position, std::span<const LocalId> which);
+// Of up to eight hexes; entries beyond `which.size()` are meaningless. Agrees with scaled_jacobian() up to
+// rounding.
+[[nodiscard]] HexQuality quality_of(const std::vector<Hex>& hexes, const std::vector<Vec3>& position,
+                                    std::span<const LocalId> which);
 
 }  // namespace sculpt

@@ -12,14 +12,19 @@ namespace {
 
 constexpr int kUntangleSweeps = 60, kBulkSweeps = 3;
 constexpr int kRaiseAttempts = 3, kUnfoldSweeps = 12;
-constexpr double kFolded = 1e-6;     // the quality that marks a folded hex is below this
-constexpr double kFar = 0.05;        // a move that makes the neighbours worth another visit, in cells
-constexpr double kMargin = 0.05;     // hexes this little above the target are raised as well
+constexpr double kFolded = 1e-6;  // the quality that marks a folded hex is below this
+constexpr double kFar = 0.05;     // a move that makes the neighbours worth another visit, in cells
+constexpr double kMargin = 0.05;  // hexes this little above the target are raised as well
 
 class Phases {
  public:
   Phases(HexMesh& mesh, const Geometry& geometry, const SmoothOptions& options, const Log& log)
-      : mesh_(mesh), geometry_(geometry), options_(options), log_(log), set_(mesh), step_(mesh, set_.around(), geometry) {
+      : mesh_(mesh),
+        geometry_(geometry),
+        options_(options),
+        log_(log),
+        set_(mesh),
+        step_(mesh, set_.around(), geometry) {
     const Vec3& h = mesh.cell_size;
     per_axis_ = {1 / h.x, 1 / h.y, 1 / h.z};
     const double size = h.x == h.y && h.y == h.z ? h.x : std::cbrt(h.x * h.y * h.z);
@@ -37,7 +42,9 @@ class Phases {
   }
 
  private:
-  [[nodiscard]] std::int64_t owned_hexes() const { return std::count(mesh_.layer.begin(), mesh_.layer.end(), std::uint8_t{0}); }
+  [[nodiscard]] std::int64_t owned_hexes() const {
+    return std::count(mesh_.layer.begin(), mesh_.layer.end(), std::uint8_t{0});
+  }
 
   std::int64_t sweep(const StepRules& rules, double far) {
     return set_.sweep([&](LocalId n) { return step_.newton(n, rules); }, far);
@@ -45,11 +52,12 @@ class Phases {
 
   void report(const char* phase, int iteration) const {
     const ActiveSet::Worst w = set_.worst(options_.target);
-    log_.line("{} Iter: {},  Num bad: {}, Num poor: {}, Min SJ: {:f}", phase, iteration, w.not_positive, w.below_02, w.quality);
+    log_.line("{} Iter: {},  Num bad: {}, Num poor: {}, Min SJ: {:f}", phase, iteration, w.not_positive,
+              w.below_02, w.quality);
   }
 
-  // Positive determinants everywhere: minimise the regularised energy while the regularisation falls with the worst
-  // determinant. Determinants do not care about a scaling of the axes, so cells count as cubes here.
+  // Positive determinants everywhere: minimise the regularised energy while the regularisation falls with the
+  // worst determinant. Determinants do not care about a scaling of the axes, so cells count as cubes here.
   void untangle() {
     step_.set_scale(per_axis_);
     StepRules rules;
@@ -65,8 +73,9 @@ class Phases {
       if (set_.worst(options_.target).not_positive == 0 && worst > 0) break;
       eps = next_eps(worst, eps, i == 0);
       rules.eps = eps;
-      if (i >= kBulkSweeps) rules.penalty = std::max(rules.penalty * 0.5, 1e-4);  // interfaces give way more easily
-      if (i > 0 && i % 5 == 0) layers = std::min(layers + 1, 4);                   // and farther around
+      if (i >= kBulkSweeps)
+        rules.penalty = std::max(rules.penalty * 0.5, 1e-4);      // interfaces give way more easily
+      if (i > 0 && i % 5 == 0) layers = std::min(layers + 1, 4);  // and farther around
       // The first sweeps settle the bulk; what resists them is worked on in its own neighbourhood.
       set_.choose(i < kBulkSweeps ? 0.1 : 1e-3, layers, false);
       sweep(rules, kFar);
@@ -97,8 +106,8 @@ class Phases {
     }
   }
 
-  // What is still below the target: steeper energies, which look more and more at the worst corner only, then the
-  // climb of single corners. Where that is not enough interfaces give way more easily.
+  // What is still below the target: steeper energies, which look more and more at the worst corner only, then
+  // the climb of single corners. Where that is not enough interfaces give way more easily.
   void raise_to_target() {
     const std::int64_t nodes = set_.choose(options_.target, 0, false);
     if (nodes == 0) {
@@ -108,7 +117,8 @@ class Phases {
     log_.line("Begin parallel color smoothing {} nodes below threshold {:f}", nodes, options_.target);
     int round = 0;
     double fidelity = options_.fidelity;
-    for (int attempt = 0; attempt < kRaiseAttempts && set_.worst(options_.target).below_target > 0; ++attempt) {
+    for (int attempt = 0; attempt < kRaiseAttempts && set_.worst(options_.target).below_target > 0;
+         ++attempt) {
       steepen(fidelity, round);
       climb(round);
       fidelity *= 0.1;
@@ -119,7 +129,8 @@ class Phases {
   void steepen(double fidelity, int& round) {
     StepRules rules = raising_rules(fidelity);
     for (rules.power = 2; rules.power <= 8; rules.power *= 2) {
-      rules.penalty *= std::pow(1 / options_.target, rules.power / 4.0);  // keeps pace with the energy at the target
+      rules.penalty *=
+          std::pow(1 / options_.target, rules.power / 4.0);  // keeps pace with the energy at the target
       for (int i = 0; i < 4 && round < options_.target_rounds; ++i) {
         if (set_.choose(options_.target + kMargin, 1, false) == 0) return;
         const std::int64_t moves = sweep(rules, kFar);
@@ -133,7 +144,8 @@ class Phases {
     rules.power = 4;
     for (int i = 0; i < 12 && round < options_.target_rounds; ++i) {
       if (set_.choose(options_.target, 0, false) == 0) return;
-      const std::int64_t moves = set_.sweep([&](LocalId n) { return step_.climb(n, rules.least_edge); }, kFar);
+      const std::int64_t moves =
+          set_.sweep([&](LocalId n) { return step_.climb(n, rules.least_edge); }, kFar);
       report_target(++round, moves);
       if (moves == 0) return;
       if (i % 4 == 3) {
@@ -165,8 +177,8 @@ class Phases {
   }
   void report_target(int round, std::int64_t moves) const {
     const ActiveSet::Worst w = set_.worst(options_.target);
-    log_.line("Coloring Opt Iter: {}, Num Smooths: {}, Num bad: {}, Num poor: {}, Min SJ: {:f}", round, moves, w.not_positive,
-              w.below_target, w.quality);
+    log_.line("Coloring Opt Iter: {}, Num Smooths: {}, Num bad: {}, Num poor: {}, Min SJ: {:f}", round, moves,
+              w.not_positive, w.below_target, w.quality);
   }
 
   HexMesh& mesh_;

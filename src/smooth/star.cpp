@@ -6,8 +6,8 @@
 namespace sculpt {
 namespace {
 
-constexpr double kLengthRatio = 1.0 / 6;  // shortest target length of a corner, of its longest
-constexpr double kLengthFloor = 0.2;      // shortest target length, in cells
+constexpr double kLengthRatio = 1.0 / 6;                 // shortest target length of a corner, of its longest
+constexpr double kLengthFloor = 0.2;                     // shortest target length, in cells
 constexpr double kThirdRoot27 = 0.19245008972987525484;  // 3^(-3/2): s = 1 for an orthogonal corner
 constexpr double kTiny = 1e-300;
 
@@ -34,7 +34,8 @@ SCULPT_INLINE Lanes inverse_targets(const Lanes (&length)[3], bool unit, Lanes (
   }
   const Lanes least_length =
       largest(splat(kLengthRatio) * largest(largest(length[0], length[1]), length[2]), splat(kLengthFloor));
-  const Lanes a = largest(length[0], least_length), b = largest(length[1], least_length), c = largest(length[2], least_length);
+  const Lanes a = largest(length[0], least_length), b = largest(length[1], least_length),
+              c = largest(length[2], least_length);
   const Lanes ab = a * b, product = 1.0 / (ab * c);
   inverse[0] = product * (b * c);
   inverse[1] = product * (a * c);
@@ -63,7 +64,8 @@ SCULPT_INLINE void apex_tet(const Vec3Lanes (&e)[3], const Lanes (&length)[3], b
   t.fixed = product;
 }
 
-// Tetrahedron with its apex at a neighbour; edge 0 runs to the moving node, e[1] and e[2] to the two diagonal nodes.
+// Tetrahedron with its apex at a neighbour; edge 0 runs to the moving node, e[1] and e[2] to the two diagonal
+// nodes.
 SCULPT_INLINE void leaf_tet(const Vec3Lanes (&e)[3], const Lanes& length0, bool unit, TetLanes& t) {
   const Lanes length[3] = {length0, root(dot(e[1], e[1])), root(dot(e[2], e[2]))};
   Lanes inverse[3];
@@ -91,14 +93,16 @@ SCULPT_INLINE Vec3Lanes positions(const Vec3* const (&p)[8], const Vec3& here, c
 }
 
 // Fills a batch from up to eight hexes and returns the shortest edge at the moving node.
-SCULPT_KERNEL double build_batch(StarBatch& batch, const Hex* hexes, const Vec3* position, const std::int32_t* items,
-                                 std::size_t count, const Vec3& here, const Vec3& scale, bool unit) {
+SCULPT_KERNEL double build_batch(StarBatch& batch, const Hex* hexes, const Vec3* position,
+                                 const std::int32_t* items, std::size_t count, const Vec3& here,
+                                 const Vec3& scale, bool unit) {
   Vec3Lanes node[6];
   for (std::size_t k = 0; k < 6; ++k) {
     const Vec3* p[8];
     for (std::size_t l = 0; l < 8; ++l) {
       const std::int32_t item = items[l < count ? l : 0];  // the padding repeats the first hex
-      p[l] = position + hexes[item / 8][static_cast<std::size_t>(kStarNodes[static_cast<std::size_t>(item % 8)][k])];
+      p[l] = position +
+             hexes[item / 8][static_cast<std::size_t>(kStarNodes[static_cast<std::size_t>(item % 8)][k])];
     }
     node[k] = positions(p, here, scale);
   }
@@ -187,17 +191,18 @@ SCULPT_KERNEL void lower_shape(const StarBatch& b, const double* y, Lanes* lowes
 
 }  // namespace
 
-void Star::gather(const std::vector<Hex>& hexes, const std::vector<Vec3>& position, std::span<const std::int32_t> items,
-                  LocalId node, const Vec3& scale, Target target) {
+void Star::gather(const std::vector<Hex>& hexes, const std::vector<Vec3>& position,
+                  std::span<const std::int32_t> items, LocalId node, const Vec3& scale, Target target) {
   used_ = (items.size() + 7) / 8;
   tets_ = static_cast<int>(4 * items.size());
   if (batches_.size() < used_) batches_.resize(used_);
   const Vec3 here = position[static_cast<std::size_t>(node)];
   shortest_edge_ = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < used_; ++b)
-    shortest_edge_ = std::min(shortest_edge_, build_batch(batches_[b], hexes.data(), position.data(), items.data() + 8 * b,
-                                                          std::min<std::size_t>(8, items.size() - 8 * b), here, scale,
-                                                          target == Target::kUnit));
+    shortest_edge_ =
+        std::min(shortest_edge_, build_batch(batches_[b], hexes.data(), position.data(), items.data() + 8 * b,
+                                             std::min<std::size_t>(8, items.size() - 8 * b), here, scale,
+                                             target == Target::kUnit));
 }
 
 Derivatives Star::derivatives(int r, double eps) const {

@@ -1,7 +1,7 @@
 #pragma once
-// The energy of one moving node: the sum over the corner tetrahedra that contain it of s^r, where s is the inverse of
-// a regularised scaled Jacobian (docs/smoothing.md; after Garanzha et al., Foldover-free maps, 2021). Eight hexes are
-// worked on side by side, in lanes whose results are combined in a fixed order. Pure.
+// The energy of one moving node: the sum over the corner tetrahedra that contain it of s^r, where s is the
+// inverse of a regularised scaled Jacobian (docs/smoothing.md; after Garanzha et al., Foldover-free maps,
+// 2021). Eight hexes are worked on side by side, in lanes whose results are combined in a fixed order. Pure.
 #include <span>
 #include <vector>
 
@@ -12,8 +12,8 @@
 
 namespace sculpt {
 
-// A corner tetrahedron per lane, as a function of the displacement y of the moving node: determinant D = d0 + G.y
-// (edges divided by their target lengths) and squared norm n = W y.y - 2 S.y + S2.
+// A corner tetrahedron per lane, as a function of the displacement y of the moving node: determinant D = d0 +
+// G.y (edges divided by their target lengths) and squared norm n = W y.y - 2 S.y + S2.
 struct TetLanes {
   Lanes gx, gy, gz, d0, w, sx, sy, sz, s2;
   Lanes fixed;  // D / (scaled Jacobian * lengths of the moving edges)
@@ -38,8 +38,8 @@ class Star {
   enum class Target { kPresent, kUnit };
 
   // items: 8 * hex + corner of the hexes around the node. Lengths are measured in units of 1/scale per axis.
-  void gather(const std::vector<Hex>& hexes, const std::vector<Vec3>& position, std::span<const std::int32_t> items,
-              LocalId node, const Vec3& scale, Target target);
+  void gather(const std::vector<Hex>& hexes, const std::vector<Vec3>& position,
+              std::span<const std::int32_t> items, LocalId node, const Vec3& scale, Target target);
 
   [[nodiscard]] int tets() const { return tets_; }
   [[nodiscard]] double shortest_edge() const { return shortest_edge_; }  // at the node, before moving

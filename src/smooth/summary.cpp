@@ -43,7 +43,8 @@ Tally tally_owned(const HexMesh& mesh) {
   std::size_t count = 0;
   const auto measure = [&] {
     const HexQuality q = quality_of(mesh.hexes, mesh.position, {batch.data(), count});
-    for (std::size_t i = 0; i < count; ++i) tally.add(mesh, batch[i], q.scaled_jacobian[i], q.shortest_edge[i]);
+    for (std::size_t i = 0; i < count; ++i)
+      tally.add(mesh, batch[i], q.scaled_jacobian[i], q.shortest_edge[i]);
     count = 0;
   };
   for (LocalId h = 0; h < mesh.size(); ++h) {
@@ -83,7 +84,8 @@ QualitySummary summarise(const Comm& comm, const HexMesh& mesh) {
   s.least = comm.min(tally.least);
   s.shortest_edge = comm.min(tally.shortest);
   locate_worst(comm, mesh, tally, s);
-  const double all = static_cast<double>(comm.sum(tally.carries)) + static_cast<double>(comm.sum(tally.units)) / kUnits;
+  const double all =
+      static_cast<double>(comm.sum(tally.carries)) + static_cast<double>(comm.sum(tally.units)) / kUnits;
   s.average = s.hexes > 0 ? all / static_cast<double>(s.hexes) : 0;
   return s;
 }

@@ -7,7 +7,8 @@ namespace {
 
 Index3 nearest_source(const Index3& cell, std::int64_t expand, const Index3& source_cells) {
   Index3 s;
-  for (std::size_t d = 0; d < 3; ++d) s[d] = std::clamp<std::int64_t>(cell[d] - expand, 0, source_cells[d] - 1);
+  for (std::size_t d = 0; d < 3; ++d)
+    s[d] = std::clamp<std::int64_t>(cell[d] - expand, 0, source_cells[d] - 1);
   return s;
 }
 
@@ -21,13 +22,15 @@ IndexBox source_of(const IndexBox& box, std::int64_t expand, const Index3& sourc
   return source;
 }
 
-Fractions expand_fractions(const Fractions& data, const IndexBox& source_box, const IndexBox& box, std::int64_t expand,
-                           const Index3& source_cells) {
+Fractions expand_fractions(const Fractions& data, const IndexBox& source_box, const IndexBox& box,
+                           std::int64_t expand, const Index3& source_cells) {
   Fractions grown;
   grown.reserve(static_cast<std::size_t>(box.size()), static_cast<std::size_t>(box.size()));
   for (std::int64_t p = 0; p < box.size(); ++p) {
-    const auto c = static_cast<std::size_t>(source_box.position(nearest_source(box.cell(p), expand, source_cells)));
-    for (auto e = static_cast<std::size_t>(data.offset[c]); e < static_cast<std::size_t>(data.offset[c + 1]); ++e)
+    const auto c =
+        static_cast<std::size_t>(source_box.position(nearest_source(box.cell(p), expand, source_cells)));
+    for (auto e = static_cast<std::size_t>(data.offset[c]); e < static_cast<std::size_t>(data.offset[c + 1]);
+         ++e)
       grown.add(data.material[e], data.value[e]);
     grown.end_cell();
   }
@@ -38,11 +41,13 @@ void follow_assignment(Fractions& fractions, std::span<const std::int32_t> mater
   Fractions followed;
   followed.reserve(material.size(), fractions.material.size());
   for (std::size_t c = 0; c < material.size(); ++c) {
-    const auto first = static_cast<std::size_t>(fractions.offset[c]), last = static_cast<std::size_t>(fractions.offset[c + 1]);
+    const auto first = static_cast<std::size_t>(fractions.offset[c]),
+               last = static_cast<std::size_t>(fractions.offset[c + 1]);
     const auto from = fractions.value.begin();
     const auto top = static_cast<std::size_t>(
         std::max_element(from + fractions.offset[c], from + fractions.offset[c + 1]) - from);
-    const double most = fractions.value[top], mine = fraction_of(fractions, static_cast<LocalId>(c), material[c]);
+    const double most = fractions.value[top],
+                 mine = fraction_of(fractions, static_cast<LocalId>(c), material[c]);
     const std::int32_t former = fractions.material[top];
     bool placed = mine > 0;  // the new material already has an entry
     for (std::size_t e = first; e < last; ++e) {

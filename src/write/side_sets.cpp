@@ -171,10 +171,11 @@ class Finder {
     if (stages_ == 2) add_strips(item);
   }
 
-  // A surface pillow wraps the buffer hexes of a surface: beside its curves new hexes stand on their side faces and
-  // take a strip of the interface each.
+  // A surface pillow wraps the buffer hexes of a surface: beside its curves new hexes stand on their side
+  // faces and take a strip of the interface each.
   void add_strips(const SidePlan::Item& item) {
-    constexpr std::array<int, 4> kStrip{2, 2, 2, 1};  // of the hex on side face 0..3, beside the top of the old hex
+    constexpr std::array<int, 4> kStrip{2, 2, 2,
+                                        1};  // of the hex on side face 0..3, beside the top of the old hex
     const GlobalId buffer = kHexFactor * item.cell + item.at + 1;
     for (int side = 0; side < 4; ++side)
       if (const LocalId hex = find(kHexFactor * buffer + side + 1); hex != kNone)

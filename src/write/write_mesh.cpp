@@ -23,7 +23,8 @@ std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
 // The share of the mesh that this rank writes, in the numbering of its file.
 class RankPart {
  public:
-  RankPart(const Comm& comm, const HexMesh& mesh, const WriteOptions& options) : comm_(comm), mesh_(mesh), options_(options) {
+  RankPart(const Comm& comm, const HexMesh& mesh, const WriteOptions& options)
+      : comm_(comm), mesh_(mesh), options_(options) {
     out_.rank = comm.rank();
     out_.ranks = comm.size();
     out_.large = options.large;
@@ -51,7 +52,8 @@ class RankPart {
       material.push_back(mesh_.material[at(h)]);
     }
     std::vector<std::int64_t> counts;
-    const std::vector<GlobalId> number = grouped_numbers(comm_, keys, material, options_.block_id.size(), counts);
+    const std::vector<GlobalId> number =
+        grouped_numbers(comm_, keys, material, options_.block_id.size(), counts);
     for (const std::int64_t c : counts) out_.global_hexes += c;
     // Blocks ascend in material index, hexes of a block in id: the order of the numbers.
     std::vector<std::size_t> start(counts.size() + 1, 0);
@@ -107,11 +109,13 @@ class RankPart {
           static_cast<std::int32_t>(out_.node_id.size()) - (on_border ? out_.internal_nodes : 0);
     }
     for (const auto& [n, rank] : shared_) {
-      auto map = std::find_if(out_.node_maps.begin(), out_.node_maps.end(), [r = rank](const auto& m) { return m.rank == r; });
+      auto map = std::find_if(out_.node_maps.begin(), out_.node_maps.end(),
+                              [r = rank](const auto& m) { return m.rank == r; });
       if (map == out_.node_maps.end()) map = out_.node_maps.insert(map, {rank, {}});
       map->nodes.push_back(file_node_[at(n)]);
     }
-    std::sort(out_.node_maps.begin(), out_.node_maps.end(), [](const auto& a, const auto& b) { return a.rank < b.rank; });
+    std::sort(out_.node_maps.begin(), out_.node_maps.end(),
+              [](const auto& a, const auto& b) { return a.rank < b.rank; });
     add_blocks();
   }
   void add_node(LocalId n, GlobalId number) {
@@ -122,7 +126,9 @@ class RankPart {
     out_.node_id.push_back(number);
     file_node_[at(n)] = static_cast<LocalId>(out_.node_id.size());
   }
-  [[nodiscard]] double moved(const Vec3& p, std::size_t d) const { return options_.scale[d] * p[d] + options_.translate[d]; }
+  [[nodiscard]] double moved(const Vec3& p, std::size_t d) const {
+    return options_.scale[d] * p[d] + options_.translate[d];
+  }
 
   void add_blocks() {
     for (std::size_t m = 0; m < counts_.size(); ++m) {
@@ -130,7 +136,8 @@ class RankPart {
       RankMesh::Block block;
       block.id = options_.block_id[m];
       block.global_count = counts_[m];
-      if (const auto name = options_.block_names.find(block.id); name != options_.block_names.end()) block.name = name->second;
+      if (const auto name = options_.block_names.find(block.id); name != options_.block_names.end())
+        block.name = name->second;
       block.nodes.reserve(8 * (block_start_[m + 1] - block_start_[m]));
       for (std::size_t i = block_start_[m]; i < block_start_[m + 1]; ++i)
         for (const LocalId n : mesh_.hexes[at(file_hexes_[i])]) block.nodes.push_back(file_node_[at(n)]);
@@ -141,7 +148,8 @@ class RankPart {
   // Position of each local hex in the file, from 1.
   [[nodiscard]] std::vector<std::int32_t> places() const {
     std::vector<std::int32_t> place(mesh_.hexes.size(), 0);
-    for (std::size_t i = 0; i < file_hexes_.size(); ++i) place[at(file_hexes_[i])] = static_cast<std::int32_t>(i) + 1;
+    for (std::size_t i = 0; i < file_hexes_.size(); ++i)
+      place[at(file_hexes_[i])] = static_cast<std::int32_t>(i) + 1;
     return place;
   }
 
@@ -197,7 +205,9 @@ class RankPart {
         std::sort(face.nodes.begin(), face.nodes.end());
         faces.push_back(face);
       }
-    std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return std::tie(a.nodes, a.place) < std::tie(b.nodes, b.place); });
+    std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+      return std::tie(a.nodes, a.place) < std::tie(b.nodes, b.place);
+    });
     std::map<std::int32_t, std::vector<std::pair<std::int32_t, std::int32_t>>> by_rank;
     std::vector<std::uint8_t> on_border(file_hexes_.size(), 0);
     for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
@@ -216,17 +226,18 @@ class RankPart {
       out_.element_maps.push_back(std::move(map));
     }
     for (std::size_t i = 0; i < file_hexes_.size(); ++i)
-      (on_border[i] ? out_.border_elements : out_.internal_elements).push_back(static_cast<std::int32_t>(i) + 1);
+      (on_border[i] ? out_.border_elements : out_.internal_elements)
+          .push_back(static_cast<std::int32_t>(i) + 1);
   }
 
   const Comm& comm_;
   const HexMesh& mesh_;
   const WriteOptions& options_;
   RankMesh out_;
-  std::vector<LocalId> file_hexes_;            // owned hexes in file order
-  std::vector<std::size_t> block_start_;       // per material, into file_hexes_
-  std::vector<std::int64_t> counts_;           // hexes of each material on all ranks
-  std::vector<LocalId> file_node_;             // per local node: its number in the file, kNone = not in it
+  std::vector<LocalId> file_hexes_;       // owned hexes in file order
+  std::vector<std::size_t> block_start_;  // per material, into file_hexes_
+  std::vector<std::int64_t> counts_;      // hexes of each material on all ranks
+  std::vector<LocalId> file_node_;        // per local node: its number in the file, kNone = not in it
   std::vector<std::pair<LocalId, std::int32_t>> shared_;  // (node, other rank), ascending
 };
 
@@ -248,16 +259,19 @@ WriteSummary write_mesh(const Comm& comm, const HexMesh& mesh, const std::vector
 }
 
 void check_output_folder(const Comm& comm, const std::string& base) {
-  const std::string final_name = rank_file_name(base, comm.size(), comm.rank()), probe = temporary_name(final_name);
+  const std::string final_name = rank_file_name(base, comm.size(), comm.rank()),
+                    probe = temporary_name(final_name);
   collectively(comm, "checking the output folder", [&] {
     const auto folder = std::filesystem::path(final_name).parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder))
       throw Error(fmt::format("exodus_file = {}: the folder {} does not exist", base, folder.string()));
     if (std::filesystem::is_directory(final_name))
-      throw Error(fmt::format("exodus_file = {}: {} is a folder, expected to write a file there", base, final_name));
+      throw Error(
+          fmt::format("exodus_file = {}: {} is a folder, expected to write a file there", base, final_name));
     std::FILE* file = std::fopen(probe.c_str(), "w");
     if (file == nullptr)
-      throw Error(fmt::format("exodus_file = {}: cannot write {}: {}", base, final_name, std::strerror(errno)));
+      throw Error(
+          fmt::format("exodus_file = {}: cannot write {}: {}", base, final_name, std::strerror(errno)));
     std::fclose(file);
     discard(probe);
   });

@@ -1,5 +1,6 @@
 #pragma once
-// The console: one rank speaks, `quiet` silences it. Users parse this output, so it goes to stdout unbuffered by line.
+// The console: one rank speaks, `quiet` silences it. Users parse this output, so it goes to stdout unbuffered
+// by line.
 #include <fmt/core.h>
 
 #include <cstdio>

@@ -35,6 +35,8 @@ inline Vec3 unit(const Vec3& a) {
 }
 // Componentwise product: coordinates in another unit per axis.
 inline Vec3 scaled(const Vec3& a, const Vec3& s) { return {a.x * s.x, a.y * s.y, a.z * s.z}; }
-inline double largest(const Vec3& a) { return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z))); }
+inline double largest(const Vec3& a) {
+  return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z)));
+}
 
 }  // namespace sculpt

@@ -1,6 +1,7 @@
 #pragma once
-// The material interfaces of the overlay mesh as a surface mesh, and the class of every interface node (the report,
-// section 2.8). Local, built from the local cells; complete at all nodes of owned cells and of the first ghost layer.
+// The material interfaces of the overlay mesh as a surface mesh, and the class of every interface node (the
+// report, section 2.8). Local, built from the local cells; complete at all nodes of owned cells and of the
+// first ghost layer.
 #include <array>
 #include <span>
 #include <vector>
@@ -10,12 +11,12 @@
 
 namespace sculpt {
 
-// A cell face between two materials. Nodes circulate so that the normal points from cell[0] to cell[1]; cell[0] has
-// the smaller global id.
+// A cell face between two materials. Nodes circulate so that the normal points from cell[0] to cell[1];
+// cell[0] has the smaller global id.
 struct InterfaceQuad {
   std::array<LocalId, 4> node;  // mesh nodes
   std::array<LocalId, 2> cell;
-  int face;                     // of cell[0], kFaces index
+  int face;  // of cell[0], kFaces index
 };
 
 enum class NodeClass : std::uint8_t { kSurface, kCurve, kVertex };
@@ -39,17 +40,18 @@ class Table {
 };
 
 struct Interfaces {
-  std::vector<InterfaceQuad> quads;   // ascending in (cell[0], face)
-  std::vector<LocalId> nodes;         // mesh nodes on interfaces, ascending; "interface node" = index here
-  std::vector<LocalId> index_of;      // per mesh node: its interface node or kNone
-  std::vector<NodeClass> kind;        // per interface node
-  Table node_quads;                   // per interface node: 4 * quad + corner, ascending
-  Table neighbours;                   // per interface node: interface nodes joined to it by a quad edge, ascending
-  Table curve_neighbours;             // those of them joined by an edge that bounds or joins surfaces
+  std::vector<InterfaceQuad> quads;  // ascending in (cell[0], face)
+  std::vector<LocalId> nodes;        // mesh nodes on interfaces, ascending; "interface node" = index here
+  std::vector<LocalId> index_of;     // per mesh node: its interface node or kNone
+  std::vector<NodeClass> kind;       // per interface node
+  Table node_quads;                  // per interface node: 4 * quad + corner, ascending
+  Table neighbours;        // per interface node: interface nodes joined to it by a quad edge, ascending
+  Table curve_neighbours;  // those of them joined by an edge that bounds or joins surfaces
 
   // The two materials a quad separates, smaller dense index first.
   [[nodiscard]] static std::array<std::int32_t, 2> materials(const HexMesh& mesh, const InterfaceQuad& q) {
-    const auto a = mesh.material[static_cast<std::size_t>(q.cell[0])], b = mesh.material[static_cast<std::size_t>(q.cell[1])];
+    const auto a = mesh.material[static_cast<std::size_t>(q.cell[0])],
+               b = mesh.material[static_cast<std::size_t>(q.cell[1])];
     return a < b ? std::array{a, b} : std::array{b, a};
   }
 };

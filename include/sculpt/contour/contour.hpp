@@ -1,6 +1,6 @@
 #pragma once
-// Primal contouring (the report, section 2.9): where the interface crosses the line between two cell centres, and
-// where the nodes of the interface go.
+// Primal contouring (the report, section 2.9): where the interface crosses the line between two cell centres,
+// and where the nodes of the interface go.
 #include <vector>
 
 #include "sculpt/brep/interfaces.hpp"
@@ -14,27 +14,28 @@ struct Crossing {
   Vec3 point, normal;
 };
 
-// Position in [0,1] of the zero of the cubic with end values g0 >= 0 >= g1 and end slopes m0, m1 (equations 2.5-2.6,
-// slopes limited so that the cubic is monotone). Equal zeros at both ends: 1/2.
+// Position in [0,1] of the zero of the cubic with end values g0 >= 0 >= g1 and end slopes m0, m1
+// (equations 2.5-2.6, slopes limited so that the cubic is monotone). Equal zeros at both ends: 1/2.
 [[nodiscard]] double hermite_root(double g0, double g1, double m0, double m1);
 
-// Signed distance, from the centre of a unit cube along a unit normal, of the plane that has the part `share` of the
-// cube's volume behind it.
+// Signed distance, from the centre of a unit cube along a unit normal, of the plane that has the part `share`
+// of the cube's volume behind it.
 [[nodiscard]] double plane_offset(double share, const Vec3& normal);
 
 // Local. Crossing of every quad whose two cells are at most in the first ghost layer; others are left zero.
 // Gradients: least squares over the cells that share a node, mirrored at the box (equation 2.1).
-[[nodiscard]] std::vector<Crossing> edge_crossings(const HexMesh& mesh, const Interfaces& faces, const Fractions& fractions,
-                                                   const NodeHexes& around);
+[[nodiscard]] std::vector<Crossing> edge_crossings(const HexMesh& mesh, const Interfaces& faces,
+                                                   const Fractions& fractions, const NodeHexes& around);
 
-// Local. The point of the interface that an interface node at p belongs to: on surfaces the weighted mean of the
-// projections to the crossing planes around the node, on curves and at vertices the mean of the projections to the
-// pairwise intersections. Box sides are not considered. Right at owned nodes.
-[[nodiscard]] Vec3 onto_interface(const HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
-                                  std::size_t interface_node, const Vec3& p);
+// Local. The point of the interface that an interface node at p belongs to: on surfaces the weighted mean of
+// the projections to the crossing planes around the node, on curves and at vertices the mean of the
+// projections to the pairwise intersections. Box sides are not considered. Right at owned nodes.
+[[nodiscard]] Vec3 onto_interface(const HexMesh& mesh, const Interfaces& faces,
+                                  const std::vector<Crossing>& crossings, std::size_t interface_node,
+                                  const Vec3& p);
 
-// Collective. Moves every interface node of the mesh onto the interface. A node stays on its box sides and moves at most
-// 0.7 of a cell per axis.
+// Collective. Moves every interface node of the mesh onto the interface. A node stays on its box sides and
+// moves at most 0.7 of a cell per axis.
 void place_nodes(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings);
 
 }  // namespace sculpt

@@ -1,6 +1,6 @@
 #pragma once
-// Who owns which cells of a Cartesian grid, and the mesh of a rank's share (the report, section 2.4): boxes of cells
-// with layers of ghost cells around them.
+// Who owns which cells of a Cartesian grid, and the mesh of a rank's share (the report, section 2.4): boxes
+// of cells with layers of ghost cells around them.
 #include <array>
 #include <vector>
 
@@ -22,12 +22,14 @@ struct CartesianParts {
   [[nodiscard]] int owner(const Index3& cell) const;
 };
 
-// Cuts that minimise the area between ranks; ties go to the smaller largest box, then to more segments in z, y, x
-// (the splits of real Sculpt). user: segments fixed by iproc, jproc, kproc, 0 = free. If no factors of `ranks` fit
-// the grid the largest smaller number that does is used. Throws Error when the user's segments do not fit.
+// Cuts that minimise the area between ranks; ties go to the smaller largest box, then to more segments in z,
+// y, x (the splits of real Sculpt). user: segments fixed by iproc, jproc, kproc, 0 = free. If no factors of
+// `ranks` fit the grid the largest smaller number that does is used. Throws Error when the user's segments do
+// not fit.
 [[nodiscard]] CartesianParts cut_grid(const Index3& cells, int ranks, const Index3& user);
 
 // Collective. This rank's cells with `layers` ghost layers; materials are left unset.
-[[nodiscard]] HexMesh lattice_mesh(const Comm& comm, const Grid& grid, const CartesianParts& parts, int layers);
+[[nodiscard]] HexMesh lattice_mesh(const Comm& comm, const Grid& grid, const CartesianParts& parts,
+                                   int layers);
 
 }  // namespace sculpt

@@ -1,6 +1,6 @@
 #pragma once
-// The trilinear hexahedron: numbering (Exodus), quality and volume. Scaled Jacobian: equations 2.7 and 2.8 of the
-// report, the minimum over the eight corners.
+// The trilinear hexahedron: numbering (Exodus), quality and volume. Scaled Jacobian: equations 2.7 and 2.8 of
+// the report, the minimum over the eight corners.
 #include <array>
 
 #include "sculpt/base/types.hpp"
@@ -36,8 +36,9 @@ inline constexpr std::array<std::array<int, 3>, 8> kCornerOffset{
 [[nodiscard]] double corner_determinant(const HexCorners& p, int corner);
 // Exact volume of the trilinear hex (2x2x2 Gauss points).
 [[nodiscard]] double hex_volume(const HexCorners& p);
-// Whether the Jacobian is positive everywhere in the hex: by its 27 Bezier coefficients, subdividing where they do
-// not decide (Johnen, Weill, Remacle 2017). Undecided after `depth` subdivisions counts as not positive.
+// Whether the Jacobian is positive everywhere in the hex: by its 27 Bezier coefficients, subdividing where
+// they do not decide (Johnen, Weill, Remacle 2017). Undecided after `depth` subdivisions counts as not
+// positive.
 [[nodiscard]] bool is_positive_inside(const HexCorners& p, int depth = 4);
 [[nodiscard]] double shortest_edge(const HexCorners& p);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The overlay grid: a Cartesian box of cells, given by its grid planes (the report, section 2.4). Cell (i,j,k) has
-// the global id i + nx (j + ny k); node (i,j,k) has i + (nx+1)(j + (ny+1) k).
+// The overlay grid: a Cartesian box of cells, given by its grid planes (the report, section 2.4). Cell
+// (i,j,k) has the global id i + nx (j + ny k); node (i,j,k) has i + (nx+1)(j + (ny+1) k).
 #include <array>
 #include <vector>
 
@@ -16,7 +16,8 @@ struct Grid {
 
   [[nodiscard]] Vec3 cell_size() const {
     Vec3 h;
-    for (std::size_t d = 0; d < 3; ++d) h[d] = (planes[d].back() - planes[d].front()) / static_cast<double>(cells[d]);
+    for (std::size_t d = 0; d < 3; ++d)
+      h[d] = (planes[d].back() - planes[d].front()) / static_cast<double>(cells[d]);
     return h;
   }
   [[nodiscard]] GlobalId cell_id(const Index3& c) const { return c[0] + cells[0] * (c[1] + cells[1] * c[2]); }

@@ -12,7 +12,9 @@ struct IndexBox {
   Index3 lo{0, 0, 0}, hi{0, 0, 0};
 
   bool operator==(const IndexBox&) const = default;
-  [[nodiscard]] std::int64_t extent(std::size_t axis) const { return std::max<std::int64_t>(0, hi[axis] - lo[axis]); }
+  [[nodiscard]] std::int64_t extent(std::size_t axis) const {
+    return std::max<std::int64_t>(0, hi[axis] - lo[axis]);
+  }
   [[nodiscard]] std::int64_t size() const { return extent(0) * extent(1) * extent(2); }
   [[nodiscard]] bool empty() const { return size() == 0; }
   [[nodiscard]] bool contains(const Index3& c) const {

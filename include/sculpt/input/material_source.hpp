@@ -1,6 +1,6 @@
 #pragma once
-// Where materials come from: a file or a geometry that can say, for any box of cells, which materials they hold.
-// One class per format; the rest of the program knows only this face.
+// Where materials come from: a file or a geometry that can say, for any box of cells, which materials they
+// hold. One class per format; the rest of the program knows only this face.
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,8 +15,8 @@
 
 namespace sculpt {
 
-// Sparse volume fractions of a list of cells, CSR: cell c holds material[offset[c] .. offset[c+1]) (dense index,
-// ascending) with the fractions in `value`, each in (0,1], their sum 1.
+// Sparse volume fractions of a list of cells, CSR: cell c holds material[offset[c] .. offset[c+1]) (dense
+// index, ascending) with the fractions in `value`, each in (0,1], their sum 1.
 struct Fractions {
   std::vector<std::int64_t> offset{0};
   std::vector<std::int32_t> material;
@@ -36,11 +36,12 @@ struct Fractions {
   void end_cell() { offset.push_back(static_cast<std::int64_t>(material.size())); }
 };
 
-// The materials of a run, the same on every rank. Dense index = position in block_id, which ascends, except that
-// the void that has no id of the user's (`diatom` space outside every shape) may get the id by the rules of void_mat.
+// The materials of a run, the same on every rank. Dense index = position in block_id, which ascends, except
+// that the void that has no id of the user's (`diatom` space outside every shape) may get the id by the rules
+// of void_mat.
 struct MaterialTable {
-  std::vector<std::int64_t> block_id;        // Exodus block id of each material, ascending
-  std::optional<std::int32_t> void_material; // dense index of the material that is the void, if there is one
+  std::vector<std::int64_t> block_id;         // Exodus block id of each material, ascending
+  std::optional<std::int32_t> void_material;  // dense index of the material that is the void, if there is one
 };
 
 // What the source says once it has been opened.
@@ -54,13 +55,13 @@ class MaterialSource {
   virtual ~MaterialSource() = default;
   // The grid of the data itself, before expansion layers. Known after opening, the same on every rank.
   [[nodiscard]] virtual const Grid& grid() const = 0;
-  // Collective. wanted[r] = the cells rank r needs (known to all ranks; boxes may overlap or be empty). Reads large
-  // files once, all ranks together, and leaves on each rank only what it wanted. Throws AgreedError.
+  // Collective. wanted[r] = the cells rank r needs (known to all ranks; boxes may overlap or be empty). Reads
+  // large files once, all ranks together, and leaves on each rank only what it wanted. Throws AgreedError.
   [[nodiscard]] virtual MaterialData read(const Comm& comm, std::span<const IndexBox> wanted) = 0;
 };
 
-// Collective. Opens the one geometry source of the deck, checks what can be checked before reading the data, and
-// prints the summary that real Sculpt prints. Throws AgreedError.
+// Collective. Opens the one geometry source of the deck, checks what can be checked before reading the data,
+// and prints the summary that real Sculpt prints. Throws AgreedError.
 [[nodiscard]] std::unique_ptr<MaterialSource> open_source(const Comm& comm, const Deck& deck, const Log& log);
 
 }  // namespace sculpt

@@ -1,6 +1,6 @@
 #pragma once
-// Adjacency of a HexMesh, built when a stage needs it and dropped after. Local. Lists ascend in local index, which is
-// the order of global ids.
+// Adjacency of a HexMesh, built when a stage needs it and dropped after. Local. Lists ascend in local index,
+// which is the order of global ids.
 #include <array>
 #include <span>
 #include <vector>
@@ -24,8 +24,8 @@ class NodeHexes {
   std::vector<std::int32_t> items_;
 };
 
-// For every hex its neighbours across the six faces (kFaces order); kNone where there is none in this rank's mesh.
-// A hex of an inner layer without a neighbour has that face on the boundary of the domain.
+// For every hex its neighbours across the six faces (kFaces order); kNone where there is none in this rank's
+// mesh. A hex of an inner layer without a neighbour has that face on the boundary of the domain.
 using FaceNeighbours = std::vector<std::array<LocalId, 6>>;
 [[nodiscard]] FaceNeighbours face_neighbours(const HexMesh& mesh);
 // The same without use of the lattice, for any hex mesh.

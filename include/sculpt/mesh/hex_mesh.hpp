@@ -1,9 +1,10 @@
 #pragma once
-// The distributed hex mesh: one type for every overlay grid and every stage (docs/architecture.md). Before the hexes
-// are built its elements are the cells of the overlay grid, afterwards the hexes of the result.
+// The distributed hex mesh: one type for every overlay grid and every stage (docs/architecture.md). Before
+// the hexes are built its elements are the cells of the overlay grid, afterwards the hexes of the result.
 //
-// Local numbering ascends in global id, for nodes and hexes, owned and ghost alike: so "in local order" is "in
-// canonical order", and adjacency lists built by a plain loop are sorted for free. layer says what is owned.
+// Local numbering ascends in global id, for nodes and hexes, owned and ghost alike: so "in local order" is
+// "in canonical order", and adjacency lists built by a plain loop are sorted for free. layer says what is
+// owned.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -26,27 +27,30 @@ struct HexMesh {
   std::vector<GlobalId> node_id;         // key that does not depend on the number of ranks, ascending
   std::vector<std::int32_t> node_owner;  // rank
   std::vector<std::uint8_t> box_sides;   // sides of the domain box that hold the node
-  std::vector<std::uint8_t> colour;      // nodes of one colour share no hex unless they stem from one overlay node
+  std::vector<std::uint8_t>
+      colour;  // nodes of one colour share no hex unless they stem from one overlay node
 
   // Hexes.
-  std::vector<Hex> hexes;                // Exodus corner order, local node indices
-  std::vector<GlobalId> hex_id;          // as node_id, ascending
-  std::vector<std::int32_t> hex_owner;   // rank
-  std::vector<std::uint8_t> layer;       // 0 owned, 1 and above: ghost layers outwards
-  std::vector<std::int32_t> material;    // dense material index
+  std::vector<Hex> hexes;               // Exodus corner order, local node indices
+  std::vector<GlobalId> hex_id;         // as node_id, ascending
+  std::vector<std::int32_t> hex_owner;  // rank
+  std::vector<std::uint8_t> layer;      // 0 owned, 1 and above: ghost layers outwards
+  std::vector<std::int32_t> material;   // dense material index
 
-  GhostExchange node_exchange;           // ghost nodes take their owners' values
-  GhostExchange hex_exchange;            // likewise for hexes
-  int ghost_layers = 0;                  // of hexes around the owned ones, where the domain has them
-  int colours = 0;                       // number of colours in use
-  Vec3 cell_size{1, 1, 1};               // of the overlay grid; the unit of lengths in smoothing
-  std::array<LocalId, 3> lattice{0, 0, 0};  // cells per axis when the local hexes are a full box, x fastest; else 0
+  GhostExchange node_exchange;  // ghost nodes take their owners' values
+  GhostExchange hex_exchange;   // likewise for hexes
+  int ghost_layers = 0;         // of hexes around the owned ones, where the domain has them
+  int colours = 0;              // number of colours in use
+  Vec3 cell_size{1, 1, 1};      // of the overlay grid; the unit of lengths in smoothing
+  std::array<LocalId, 3> lattice{0, 0,
+                                 0};  // cells per axis when the local hexes are a full box, x fastest; else 0
 
   [[nodiscard]] LocalId nodes() const { return static_cast<LocalId>(position.size()); }
   [[nodiscard]] LocalId size() const { return static_cast<LocalId>(hexes.size()); }
   [[nodiscard]] HexCorners corners(LocalId hex) const {
     HexCorners p;
-    for (std::size_t c = 0; c < 8; ++c) p[c] = position[static_cast<std::size_t>(hexes[static_cast<std::size_t>(hex)][c])];
+    for (std::size_t c = 0; c < 8; ++c)
+      p[c] = position[static_cast<std::size_t>(hexes[static_cast<std::size_t>(hex)][c])];
     return p;
   }
 };

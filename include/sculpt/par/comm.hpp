@@ -1,6 +1,7 @@
 #pragma once
 // A group of ranks and what they can agree on. The only reductions offered are those whose result does not
-// depend on the number or order of ranks: sums of integers, minima and maxima (docs/architecture.md, same bits).
+// depend on the number or order of ranks: sums of integers, minima and maxima (docs/architecture.md, same
+// bits).
 #include <mpi.h>
 
 #include <cstdint>
@@ -58,7 +59,8 @@ class Comm {
   template <class T>
   [[nodiscard]] std::vector<T> concatenate(std::span<const T> items) const {
     static_assert(std::is_trivially_copyable_v<T>);
-    const std::vector<char> bytes = concatenate_bytes({reinterpret_cast<const char*>(items.data()), items.size_bytes()});
+    const std::vector<char> bytes =
+        concatenate_bytes({reinterpret_cast<const char*>(items.data()), items.size_bytes()});
     std::vector<T> all(bytes.size() / sizeof(T));
     copy_bytes(bytes.data(), all.data(), bytes.size());
     return all;
@@ -109,8 +111,8 @@ class Comm {
 // The text of the exception being handled; never empty.
 [[nodiscard]] std::string current_exception_text();
 
-// Collective. Runs work on this rank (no communication inside); when it fails on any rank, all ranks throw the
-// lowest failing rank's text as AgreedError. `doing` is for failures that are not the user's.
+// Collective. Runs work on this rank (no communication inside); when it fails on any rank, all ranks throw
+// the lowest failing rank's text as AgreedError. `doing` is for failures that are not the user's.
 void collectively(const Comm& comm, std::string_view doing, const std::function<void()>& work);
 
 }  // namespace sculpt

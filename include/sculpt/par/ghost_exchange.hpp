@@ -1,6 +1,6 @@
 #pragma once
-// Copies of shared entities kept equal: every entity has one owner rank, other ranks hold ghosts of it. Messages are
-// ordered by global id, so that they carry values only.
+// Copies of shared entities kept equal: every entity has one owner rank, other ranks hold ghosts of it.
+// Messages are ordered by global id, so that they carry values only.
 #include <algorithm>
 #include <cstring>
 #include <span>
@@ -22,8 +22,8 @@ class GhostExchange {
   };
 
   GhostExchange() : comm_(Comm::self()) {}
-  // Collective. ids: global ids of the local entities, ascending; owner: their owner ranks. Throws BrokenPromise
-  // when a ghost is unknown to its owner.
+  // Collective. ids: global ids of the local entities, ascending; owner: their owner ranks. Throws
+  // BrokenPromise when a ghost is unknown to its owner.
   GhostExchange(const Comm& comm, std::span<const GlobalId> ids, std::span<const std::int32_t> owner);
 
   // Collective. Every ghost takes its owner's value.
@@ -43,8 +43,8 @@ class GhostExchange {
     copy_to_ghosts(std::span<T>(values));
   }
 
-  // Collective. As copy_to_ghosts, for the owned entities whose flag is set only; clears the flags of what it sent
-  // and calls arrived(ghost) for every ghost that took a new value.
+  // Collective. As copy_to_ghosts, for the owned entities whose flag is set only; clears the flags of what it
+  // sent and calls arrived(ghost) for every ghost that took a new value.
   template <class T, class Arrived>
   void copy_changed(std::span<T> values, std::span<std::uint8_t> changed, Arrived&& arrived) const {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -68,8 +68,8 @@ class GhostExchange {
       }
   }
 
-  // Collective. Each owner takes combine(own value, ghost value) over all ghosts of it; combine must not depend on
-  // the order of its calls (minimum, maximum, bitwise or).
+  // Collective. Each owner takes combine(own value, ghost value) over all ghosts of it; combine must not
+  // depend on the order of its calls (minimum, maximum, bitwise or).
   template <class T, class Combine>
   void reduce_to_owners(std::span<T> values, Combine&& combine) const {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -87,8 +87,8 @@ class GhostExchange {
     }
   }
 
-  // Collective. write(owned entity, bytes) appends what the ghosts of an entity shall learn (nothing is fine);
-  // read(ghost, bytes, end) returns where it stopped. For records of unequal length.
+  // Collective. write(owned entity, bytes) appends what the ghosts of an entity shall learn (nothing is
+  // fine); read(ghost, bytes, end) returns where it stopped. For records of unequal length.
   template <class Write, class Read>
   void send_records(Write&& write, Read&& read) const {
     Messages out(send_.size());
@@ -127,7 +127,8 @@ class GhostExchange {
   using Messages = std::vector<std::vector<char>>;
   static std::size_t index(LocalId id) { return static_cast<std::size_t>(id); }
   // One message to every rank of `to`, one from every rank of `from`.
-  [[nodiscard]] Messages swap(const std::vector<Link>& to, const Messages& out, const std::vector<Link>& from) const;
+  [[nodiscard]] Messages swap(const std::vector<Link>& to, const Messages& out,
+                              const std::vector<Link>& from) const;
 
   Comm comm_;
   std::vector<Link> send_, receive_;

@@ -8,11 +8,12 @@
 
 namespace sculpt {
 
-// Collective. Runs a validated deck; prints what real Sculpt prints. Throws AgreedError or Error on all ranks alike.
+// Collective. Runs a validated deck; prints what real Sculpt prints. Throws AgreedError or Error on all ranks
+// alike.
 void run(const Comm& comm, const Deck& deck);
 
-// The program: reads the command line and the deck (rank 0 reads, all agree), starts ranks if needed, runs. Returns the
-// exit status.
+// The program: reads the command line and the deck (rank 0 reads, all agree), starts ranks if needed, runs.
+// Returns the exit status.
 int sculpt_main(int argc, char** argv);
 
 }  // namespace sculpt

@@ -14,7 +14,8 @@ class Stages {
   Stages();
   // Ends the stage that began with the last call (or the construction) and names it.
   void end(const std::string& name);
-  // Collective. A line per stage: slowest rank's time, its share, and the largest peak of resident memory so far.
+  // Collective. A line per stage: slowest rank's time, its share, and the largest peak of resident memory so
+  // far.
   void print(const Comm& comm, const Log& log, std::int64_t hexes) const;
   [[nodiscard]] double seconds() const;  // since construction, this rank
 

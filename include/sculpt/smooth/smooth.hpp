@@ -1,7 +1,7 @@
 #pragma once
-// Moves the nodes of a finished hex mesh until every hex is valid and good: Laplacian passes, untangling, improvement,
-// and the raising of what is still below the target (docs/smoothing.md). Nodes move one after another in an order that
-// depends on global ids only, nodes of one colour at the same time.
+// Moves the nodes of a finished hex mesh until every hex is valid and good: Laplacian passes, untangling,
+// improvement, and the raising of what is still below the target (docs/smoothing.md). Nodes move one after
+// another in an order that depends on global ids only, nodes of one colour at the same time.
 #include <array>
 #include <functional>
 #include <span>
@@ -15,23 +15,25 @@ namespace sculpt {
 
 // The interface nodes: where each should stay and how a deviation d weighs (d.W.d, W = xx xy xz yy yz zz).
 struct Geometry {
-  std::vector<LocalId> index;                 // per mesh node: its entry below or kNone
+  std::vector<LocalId> index;  // per mesh node: its entry below or kNone
   std::vector<Vec3> target;
   std::vector<std::array<double, 6>> weight;
-  std::vector<std::uint8_t> on_curve;         // 1 for nodes of curves and vertices
+  std::vector<std::uint8_t> on_curve;  // 1 for nodes of curves and vertices
 };
 
 struct SmoothOptions {
-  int laplacian_passes = 2;        // Jacobi passes over the nodes near interfaces
-  int improve_sweeps = 5;          // most optimisation sweeps over hexes below improve_below
-  double improve_below = 0.6;      // scaled Jacobian
-  double target = 0.3;             // scaled Jacobian that every hex shall reach
-  int target_rounds = 100;         // most sweeps over hexes below the target
-  double fidelity = 1;             // weight of deviations of interface nodes from where they were put
-  double release_curves_below = 0.1;  // curve nodes of hexes below it may leave their curve; negative: held harder
+  int laplacian_passes = 2;    // Jacobi passes over the nodes near interfaces
+  int improve_sweeps = 5;      // most optimisation sweeps over hexes below improve_below
+  double improve_below = 0.6;  // scaled Jacobian
+  double target = 0.3;         // scaled Jacobian that every hex shall reach
+  int target_rounds = 100;     // most sweeps over hexes below the target
+  double fidelity = 1;         // weight of deviations of interface nodes from where they were put
+  double release_curves_below =
+      0.1;  // curve nodes of hexes below it may leave their curve; negative: held harder
 };
 
-// Scaled Jacobian and edge length over the hexes of all ranks; the same for any number of ranks, but for least_rank.
+// Scaled Jacobian and edge length over the hexes of all ranks; the same for any number of ranks, but for
+// least_rank.
 struct QualitySummary {
   std::int64_t hexes = 0, not_positive = 0, below_02 = 0, below_03 = 0;
   std::int64_t not_positive_inside = 0;  // hexes whose Jacobian is not positive everywhere, corners included
@@ -41,11 +43,12 @@ struct QualitySummary {
   int least_rank = 0;      // its owner
 };
 
-// Collective. The mesh needs one ghost layer of hexes. Every hex ends with a positive Jacobian if any way to it was
-// found; what is left below the target is told by summarise().
+// Collective. The mesh needs one ghost layer of hexes. Every hex ends with a positive Jacobian if any way to
+// it was found; what is left below the target is told by summarise().
 void smooth_mesh(HexMesh& mesh, const Geometry& geometry, const SmoothOptions& options, const Log& log);
 
-// Collective. The average is summed in whole units of 2^-40, so that it does not depend on the number of ranks.
+// Collective. The average is summed in whole units of 2^-40, so that it does not depend on the number of
+// ranks.
 [[nodiscard]] QualitySummary summarise(const Comm& comm, const HexMesh& mesh);
 
 }  // namespace sculpt

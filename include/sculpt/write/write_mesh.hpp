@@ -1,6 +1,7 @@
 #pragma once
-// Writes the finished mesh, one Exodus file per rank (docs/file-formats.md). Global ids run from 1 and do not depend on
-// the number of ranks; the files appear under their final names only when all ranks have written theirs.
+// Writes the finished mesh, one Exodus file per rank (docs/file-formats.md). Global ids run from 1 and do not
+// depend on the number of ranks; the files appear under their final names only when all ranks have written
+// theirs.
 #include <map>
 #include <string>
 #include <vector>
@@ -17,10 +18,10 @@ struct SideFace {
 };
 
 struct WriteOptions {
-  std::string base;                                // files base.e.N.r
-  bool large = false;                              // 64-bit integers on disk
-  Vec3 scale{1, 1, 1}, translate{0, 0, 0};         // coordinates are scaled, then translated
-  std::vector<std::int64_t> block_id;              // of each dense material index
+  std::string base;                         // files base.e.N.r
+  bool large = false;                       // 64-bit integers on disk
+  Vec3 scale{1, 1, 1}, translate{0, 0, 0};  // coordinates are scaled, then translated
+  std::vector<std::int64_t> block_id;       // of each dense material index
   std::map<std::int64_t, std::string> block_names, side_set_names;
 };
 
@@ -29,7 +30,8 @@ struct WriteSummary {
   std::size_t blocks = 0, side_sets = 0;
 };
 
-// Collective. side_faces: of owned hexes, each once. Throws AgreedError when a file cannot be written anywhere.
+// Collective. side_faces: of owned hexes, each once. Throws AgreedError when a file cannot be written
+// anywhere.
 WriteSummary write_mesh(const Comm& comm, const HexMesh& mesh, const std::vector<SideFace>& side_faces,
                         const WriteOptions& options);
 

@@ -96,6 +96,16 @@ std::vector<std::uint8_t> unmeshed_cells(const Deck& deck, const Overlay& overla
   return drop;
 }
 
+void refuse_empty_mesh(const Comm& comm, const Overlay& overlay, const std::vector<std::uint8_t>& drop) {
+  std::int64_t meshed = 0;
+  for (std::size_t c = 0; c < drop.size(); ++c) meshed += overlay.cells.layer[c] == 0 && !drop[c];
+  if (comm.sum(meshed) > 0) return;
+  throw Error(fmt::format(
+      "nothing to mesh: none of the {} x {} x {} cells of the grid belongs to a material; the geometry "
+      "lies outside the box or fills less than half of every cell",
+      overlay.grid[0], overlay.grid[1], overlay.grid[2]));
+}
+
 void classify(const Comm& comm, const Deck& deck, Overlay& overlay, const Log& log, Stages& stages) {
   HexMesh& cells = overlay.cells;
   const FaceNeighbours& neighbours = overlay.neighbours = face_neighbours(cells);
@@ -170,6 +180,7 @@ SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& ov
 HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, SidePlan& sides, const Log& log,
                    Stages& stages) {
   const std::vector<std::uint8_t> drop = unmeshed_cells(deck, overlay);
+  refuse_empty_mesh(comm, overlay, drop);
   const bool stair = deck.stair != kStairOff;
   const Contour shape = stair ? stair_interfaces(overlay, drop, log) : contour(deck, overlay, log, stages);
   overlay.fractions = {};

@@ -1,6 +1,7 @@
 #include "input/number_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdlib>
 
@@ -14,6 +15,30 @@ const char* RealText::parse_rare(const char* p, const char* end, Value& value) {
   char* after = nullptr;
   value = std::strtod(text.c_str(), &after);
   return after == text.c_str() ? nullptr : p + (after - text.c_str());
+}
+
+const char* RealText::parse_plain(const char* p, const char* end, Value& value) {
+  constexpr int kDigits = 15;
+  static constexpr std::array<double, kDigits + 1> kPower{1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                          1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  const bool negative = p != end && *p == '-';
+  if (negative) ++p;
+  std::int64_t mantissa = 0;
+  int digits = 0, after_point = 0;
+  const auto read_digits = [&] {
+    const char* const first = p;
+    for (; p != end && *p >= '0' && *p <= '9' && digits <= kDigits; ++p, ++digits) mantissa = 10 * mantissa + (*p - '0');
+    return static_cast<int>(p - first);
+  };
+  read_digits();
+  if (p != end && *p == '.') {
+    ++p;
+    after_point = read_digits();
+  }
+  if (digits == 0 || digits > kDigits || (p != end && !separates(*p))) return nullptr;
+  const double size = static_cast<double>(mantissa) / kPower[static_cast<std::size_t>(after_point)];
+  value = negative ? -size : size;
+  return p;
 }
 
 std::optional<double> to_real(std::string_view text) {

@@ -36,10 +36,14 @@ struct RealText {
   [[nodiscard]] static bool separates(char c) { return is_blank(c) || c == ','; }
   [[nodiscard]] static const char* parse(const char* p, const char* end, Value& value) {
     if (*p == '+') ++p;
+    if (const char* const after_plain = parse_plain(p, end, value)) return after_plain;
     const auto [after, error] = std::from_chars(p, end, value);
     if (error == std::errc() && *after != 'd' && *after != 'D') return after;
     return error == std::errc::invalid_argument ? nullptr : parse_rare(p, end, value);
   }
+  // Decimals of at most 15 digits without exponent, which is what most files hold: both the digits and the power of
+  // ten are exact, so one division rounds as the general conversion does. nullptr: something else.
+  [[nodiscard]] static const char* parse_plain(const char* p, const char* end, Value& value);
   // Fortran exponents and values beyond the range of a double.
   [[nodiscard]] static const char* parse_rare(const char* p, const char* end, Value& value);
   [[nodiscard]] static std::string expected() { return "a number"; }

@@ -162,9 +162,11 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
       smoother.pass(options.grow);
   }
   const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
-  const double farthest = options.project ? kFarthestProjected : kFarthest;
   for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
     Vec3& p = mesh.position[at(faces.nodes[i])];
+    // On the box a node cannot follow a surface that ends short of it: there the side may not close up.
+    const bool held = mesh.box_sides[at(faces.nodes[i])] != 0;
+    const double farthest = options.project && !held ? kFarthestProjected : kFarthest;
     const Vec3 move = p - grid_position[i];
     const double most = largest(scaled(move, in_cells));
     if (most > farthest)

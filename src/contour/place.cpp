@@ -7,6 +7,7 @@ namespace sculpt {
 namespace {
 
 constexpr double kFarthest = 0.7;  // of a cell, per axis: enough to reach any plane between the cell centres
+constexpr double kFarthestOnBox = 0.45;  // the same for nodes held on the box: two of them must not meet
 constexpr double kParallel = 0.2;  // sine of the angle below which two planes have no useful intersection
 
 std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
@@ -95,7 +96,8 @@ void place_nodes(HexMesh& mesh, const Interfaces& faces, const std::vector<Cross
     Vec3& p = mesh.position[at(n)];
     Vec3 move = held_on_box(onto_interface(mesh, faces, crossings, i, p) - p, mesh.box_sides[at(n)]);
     const double most = largest(scaled(move, in_cells));
-    if (most > kFarthest) move = (kFarthest / most) * move;
+    const double farthest = mesh.box_sides[at(n)] != 0 ? kFarthestOnBox : kFarthest;
+    if (most > farthest) move = (farthest / most) * move;
     p += move;
   }
   mesh.node_exchange.copy_to_ghosts(mesh.position);

@@ -27,7 +27,8 @@ const char* RealText::parse_plain(const char* p, const char* end, Value& value) 
   int digits = 0, after_point = 0;
   const auto read_digits = [&] {
     const char* const first = p;
-    for (; p != end && *p >= '0' && *p <= '9' && digits <= kDigits; ++p, ++digits) mantissa = 10 * mantissa + (*p - '0');
+    for (; p != end && *p >= '0' && *p <= '9' && digits <= kDigits; ++p, ++digits)
+      mantissa = 10 * mantissa + (*p - '0');
     return static_cast<int>(p - first);
   };
   read_digits();

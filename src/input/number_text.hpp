@@ -41,8 +41,8 @@ struct RealText {
     if (error == std::errc() && *after != 'd' && *after != 'D') return after;
     return error == std::errc::invalid_argument ? nullptr : parse_rare(p, end, value);
   }
-  // Decimals of at most 15 digits without exponent, which is what most files hold: both the digits and the power of
-  // ten are exact, so one division rounds as the general conversion does. nullptr: something else.
+  // Decimals of at most 15 digits without exponent, which is what most files hold: both the digits and the
+  // power of ten are exact, so one division rounds as the general conversion does. nullptr: something else.
   [[nodiscard]] static const char* parse_plain(const char* p, const char* end, Value& value);
   // Fortran exponents and values beyond the range of a double.
   [[nodiscard]] static const char* parse_rare(const char* p, const char* end, Value& value);

@@ -30,6 +30,8 @@ std::vector<LocalId> nodes_near_interfaces(const HexMesh& mesh, const Geometry& 
   return chosen;
 }
 
+}  // namespace
+
 Vec3 towards_neighbours(const HexMesh& mesh, const NodeHexes& around, LocalId node) {
   const std::uint8_t sides = mesh.box_sides[at(node)];
   Vec3 sum;
@@ -43,8 +45,6 @@ Vec3 towards_neighbours(const HexMesh& mesh, const NodeHexes& around, LocalId no
     }
   return count > 0 ? held_on_box((1.0 / count) * sum - mesh.position[at(node)], sides) : Vec3{};
 }
-
-}  // namespace
 
 void laplacian_passes(HexMesh& mesh, const NodeHexes& around, const Geometry& geometry, int passes,
                       const Log& log) {

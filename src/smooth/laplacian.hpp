@@ -11,4 +11,7 @@ namespace sculpt {
 void laplacian_passes(HexMesh& mesh, const NodeHexes& around, const Geometry& geometry, int passes,
                       const Log& log);
 
+// Local. From a node to the mean of its edge neighbours (those on the same box sides).
+[[nodiscard]] Vec3 towards_neighbours(const HexMesh& mesh, const NodeHexes& around, LocalId node);
+
 }  // namespace sculpt

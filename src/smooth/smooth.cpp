@@ -10,8 +10,9 @@
 namespace sculpt {
 namespace {
 
-constexpr int kUntangleSweeps = 60, kBulkSweeps = 3;
-constexpr int kRaiseAttempts = 3, kUnfoldSweeps = 12;
+constexpr int kUntangleSweeps = 60, kBulkSweeps = 3, kUntangleRound = 15;
+constexpr int kRaiseAttempts = 3, kUnfoldSweeps = 6;
+constexpr int kAttempts = 3;      // of all phases, each from another place
 constexpr double kFolded = 1e-6;  // the quality that marks a folded hex is below this
 constexpr double kFar = 0.05;     // a move that makes the neighbours worth another visit, in cells
 constexpr double kMargin = 0.05;  // hexes this little above the target are raised as well
@@ -35,10 +36,13 @@ class Phases {
     log_.line("Smoothing {} hexes on {} processors", set_.comm().sum(owned_hexes()), set_.comm().size());
     laplacian_passes(mesh_, set_.around(), geometry_, options_.laplacian_passes, log_);
     set_.refresh_all_quality();
-    untangle();
-    improve();
-    raise_to_target();
-    unfold();
+    for (int attempt = 1; attempt <= kAttempts; ++attempt) {
+      untangle();
+      improve();
+      raise_to_target();
+      if (unfold()) break;
+      if (attempt < kAttempts) relax_everything(attempt);
+    }
   }
 
  private:
@@ -71,7 +75,9 @@ class Phases {
     for (int i = 0; i < kUntangleSweeps; ++i) {
       const double worst = set_.least_determinant(per_axis_);
       if (set_.worst(options_.target).not_positive == 0 && worst > 0) break;
-      eps = next_eps(worst, eps, i == 0);
+      const bool stuck = i > 0 && i % kUntangleRound == 0;
+      if (stuck) relax_everything(layers);
+      eps = next_eps(worst, eps, i == 0 || stuck);
       rules.eps = eps;
       if (i >= kBulkSweeps)
         rules.penalty = std::max(rules.penalty * 0.5, 1e-4);      // interfaces give way more easily
@@ -81,6 +87,18 @@ class Phases {
       sweep(rules, kFar);
       report("Untangling", i + 1);
     }
+  }
+  // Where untangling does not get on, it starts again from another place: a few Laplacian passes over all
+  // nodes around the inverted hexes, those of interfaces included.
+  void relax_everything(int layers) {
+    set_.choose(1e-3, layers, false);
+    for (int pass = 0; pass < 5; ++pass)
+      set_.sweep(
+          [&](LocalId n) {
+            mesh_.position[static_cast<std::size_t>(n)] += towards_neighbours(mesh_, set_.around(), n);
+            return true;
+          },
+          kFar);
   }
   static double next_eps(double worst, double eps, bool first) {
     if (first) eps = worst < 1e-4 ? std::sqrt(1e-12 + 0.04 * worst * worst) + 1e-2 : 1e-2;
@@ -154,15 +172,19 @@ class Phases {
       }
     }
   }
-  // The Jacobian can fail inside a hex whose corners are fine: more shape for the nodes of such hexes.
-  void unfold() {
+  // The Jacobian can fail inside a hex whose corners are fine: more shape for the nodes of such hexes. Tells
+  // whether none is left; otherwise those left count as hexes of quality 0.
+  bool unfold() {
     double fidelity = options_.fidelity;
-    for (int i = 0; i < kUnfoldSweeps; ++i, fidelity *= 0.5) {
+    for (int i = 0;; ++i, fidelity *= 0.5) {
       const std::int64_t folded = set_.mark_folded();
-      if (folded == 0) return;
+      if (folded == 0 || i == kUnfoldSweeps) return folded == 0;
       log_.line("Unfolding Iter: {}, hexes with a Jacobian that is not positive inside: {}", i + 1, folded);
       StepRules rules = raising_rules(fidelity);
-      rules.power = i % 2 == 0 ? 2 : 4;
+      if (i % 2 == 0)
+        rules.power = 2;
+      else
+        rules.target_lengths = Star::Target::kUnit;  // folds go with edges of very unequal length
       set_.choose(kFolded, i / 2, false);
       sweep(rules, kFar);
     }

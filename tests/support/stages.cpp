@@ -82,7 +82,7 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   Pillowed pillowed = pillow_cells(comm, cells, drop, options.pillow_surfaces);
   note("pillow", pillowed.mesh);
   SmoothOptions volume_smoothing = options.smoothing;
-  volume_smoothing.fidelity = input.pure ? 1 : 10;
+  volume_smoothing.fidelity = input.pure ? 1 : 2.5;
   smooth_mesh(pillowed.mesh, interface_geometry(pillowed, cells, faces, deviation_weights(cells, faces)),
               volume_smoothing, Log());
   note("smooth", pillowed.mesh);

@@ -35,7 +35,7 @@ struct Crossing {
                                   const Vec3& p);
 
 // Collective. Moves every interface node of the mesh onto the interface. A node stays on its box sides and
-// moves at most 0.7 of a cell per axis.
+// moves at most 0.7 of a cell per axis (0.45 on the box).
 void place_nodes(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings);
 
 }  // namespace sculpt

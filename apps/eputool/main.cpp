@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -98,6 +99,7 @@ Request parse(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond `ulimit -f` is an error with a message
   try {
     const Request request = parse({argv + 1, argv + argc});
     if (request.help) return std::fputs(kHelp, stdout) < 0;

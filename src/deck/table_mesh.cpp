@@ -367,7 +367,8 @@ constexpr OptionSpec kBoundaryConditionOptions[] = {
      .group = kB,
      .slot = &Deck::sideset_name,
      .help = "Name of a sideset",
-     .about = "Id and name; one line per sideset.",
+     .about = "Id and name; one line per sideset made by gen_sidesets.",
+     .supported = true,
      .unset = "none"},
     {.name = "nodeset_name",
      .flag = "-nn",
@@ -397,8 +398,8 @@ constexpr OptionSpec kBoundaryConditionOptions[] = {
      .help = "Generate sidesets",
      .about =
          "fixed: 1 = faces on the boundary of the grid, 2 = outer faces of materials, 3 = interfaces between "
-         "materials. variable: one set per surface, that is per material region and side of the box and per "
-         "pair of touching regions. rve: the six sides of the box.",
+         "materials. variable: one set per connected piece of surface, on the sides of the box and between "
+         "touching regions. rve: the six sides of the box.",
      .supported = true,
      .values = kGenSidesets},
     {.name = "free_surface_sideset",

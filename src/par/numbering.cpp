@@ -1,6 +1,7 @@
 #include "sculpt/par/numbering.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace sculpt {
 namespace {
@@ -57,19 +58,29 @@ std::vector<GlobalId> dense_numbers(const Comm& comm, std::span<const GlobalId> 
     return numbers;
   }
   const auto asked = comm.all_to_all(by_range(comm, keys, {}));
-  std::vector<GlobalId> distinct;
-  for (const auto& from : asked)
-    for (const Keyed& k : from) distinct.push_back(k.key);
-  std::sort(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  std::vector<GlobalId> distinct, joined;
+  for (const auto& from : asked) {  // ascending lists, so a union is one walk
+    std::vector<GlobalId> theirs;
+    theirs.reserve(from.size());
+    for (const Keyed& k : from) theirs.push_back(k.key);
+    joined.clear();
+    joined.reserve(distinct.size() + theirs.size());
+    std::set_union(distinct.begin(), distinct.end(), theirs.begin(), theirs.end(),
+                   std::back_inserter(joined));
+    distinct.swap(joined);
+  }
   const auto mine = static_cast<GlobalId>(distinct.size());
   const GlobalId before = comm.exclusive_sum(mine);
   total = comm.sum(mine);
   std::vector<std::vector<GlobalId>> replies(asked.size());
-  for (std::size_t r = 0; r < asked.size(); ++r)
-    for (const Keyed& k : asked[r])
-      replies[r].push_back(before +
-                           (std::lower_bound(distinct.begin(), distinct.end(), k.key) - distinct.begin()));
+  for (std::size_t r = 0; r < asked.size(); ++r) {
+    replies[r].reserve(asked[r].size());
+    std::size_t at = 0;
+    for (const Keyed& k : asked[r]) {
+      while (distinct[at] != k.key) ++at;
+      replies[r].push_back(before + static_cast<GlobalId>(at));
+    }
+  }
   return answer(comm, replies, keys.size());
 }
 
@@ -84,13 +95,14 @@ std::vector<GlobalId> grouped_numbers(const Comm& comm, std::span<const GlobalId
   };
   std::vector<Place> places;
   std::vector<std::vector<GlobalId>> replies(asked.size());
-  for (std::size_t r = 0; r < asked.size(); ++r) {
+  for (std::size_t r = 0; r < asked.size(); ++r) {  // ascending lists again
     replies[r].resize(asked[r].size());
+    const auto before = static_cast<std::ptrdiff_t>(places.size());
     for (std::size_t i = 0; i < asked[r].size(); ++i)
       places.push_back({asked[r][i], static_cast<std::int32_t>(r), static_cast<std::int32_t>(i)});
+    std::inplace_merge(places.begin(), places.begin() + before, places.end(),
+                       [](const Place& a, const Place& b) { return a.item.key < b.item.key; });
   }
-  std::sort(places.begin(), places.end(),
-            [](const Place& a, const Place& b) { return a.item.key < b.item.key; });
   std::vector<std::int64_t> next(groups, 0);
   for (const Place& p : places) ++next[static_cast<std::size_t>(p.item.group)];
   counts = next;

@@ -14,6 +14,7 @@
 #include "sculpt/contour/contour.hpp"
 #include "sculpt/contour/interface_smoothing.hpp"
 #include "sculpt/distribute/cartesian.hpp"
+#include "sculpt/exo/rank_mesh.hpp"
 #include "sculpt/filter/filter.hpp"
 #include "sculpt/input/material_source.hpp"
 #include "sculpt/pillow/pillow.hpp"
@@ -228,11 +229,20 @@ WriteOptions write_options(const Deck& deck, const MaterialTable& materials) {
   return w;
 }
 
+void check_names(const Deck& deck) {
+  for (const auto* names : {&deck.material_name, &deck.sideset_name})
+    for (const IdName& n : *names)
+      if (n.name.size() > kLongestExodusName)
+        throw Error(fmt::format("the name of id {} has {} characters; Exodus files hold at most {}: {}...",
+                                n.id, n.name.size(), kLongestExodusName, n.name.substr(0, 40)));
+}
+
 }  // namespace
 
 void run(const Comm& comm, const Deck& deck) {
   const Log log(comm.rank() == 0 && !deck.quiet);
   Stages stages;
+  check_names(deck);
   check_output_folder(comm, deck.exodus_file);
   Overlay overlay = read_overlay(comm, deck, log, stages);
   log.line("begin SCULPT meshing...");

@@ -263,6 +263,8 @@ void check_output_folder(const Comm& comm, const std::string& base) {
                     probe = temporary_name(final_name);
   collectively(comm, "checking the output folder", [&] {
     const auto folder = std::filesystem::path(final_name).parent_path();
+    if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
+      throw Error(fmt::format("exodus_file = {}: {} is a file, expected a folder", base, folder.string()));
     if (!folder.empty() && !std::filesystem::is_directory(folder))
       throw Error(fmt::format("exodus_file = {}: the folder {} does not exist", base, folder.string()));
     if (std::filesystem::is_directory(final_name))

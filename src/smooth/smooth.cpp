@@ -160,7 +160,7 @@ class Phases {
   void climb(int& round) {
     StepRules rules = raising_rules(0);
     rules.power = 4;
-    for (int i = 0; i < 12 && round < options_.target_rounds; ++i) {
+    for (int i = 0; i < 24 && round < options_.target_rounds; ++i) {
       if (set_.choose(options_.target, 0, false) == 0) return;
       const std::int64_t moves =
           set_.sweep([&](LocalId n) { return step_.climb(n, rules.least_edge); }, kFar);

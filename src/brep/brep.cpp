@@ -9,8 +9,6 @@
 namespace sculpt {
 namespace {
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 // Cells of a full lattice. A cell joins the run of its left neighbour without a search; towards the rows
 // before it, it joins only where the two runs begin to touch.
 DisjointSets join_lattice(const HexMesh& cells) {

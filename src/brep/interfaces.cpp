@@ -6,8 +6,6 @@
 namespace sculpt {
 namespace {
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 void find_quads(const HexMesh& mesh, const FaceNeighbours& neighbours, Interfaces& out) {
   for (LocalId c = 0; c < mesh.size(); ++c)
     for (int f = 0; f < 6; ++f) {

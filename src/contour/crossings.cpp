@@ -11,8 +11,6 @@ constexpr double kLeastDominance = 1e-3;  // of the assigned material, so that a
 constexpr double kNearest = 0.05;         // of a crossing to a cell centre, as part of the distance
 constexpr double kPure = 1e-9;            // a cell with less of a material has none of it
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 // Gradients of the cells beside interfaces, CSR per cell.
 struct GradientTable {
   std::vector<std::int64_t> first;  // per local cell, -1 = not computed

@@ -10,8 +10,6 @@ constexpr double kFarthest = 0.45;           // from the grid position, in cells
 constexpr double kFarthestProjected = 0.75;  // the same where nodes are held on the interface
 constexpr double kSliding = 0.1;             // weight of a tangential deviation
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 class Smoother {
  public:
   Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule)

@@ -10,8 +10,6 @@ constexpr double kFarthest = 0.7;  // of a cell, per axis: enough to reach any p
 constexpr double kFarthestOnBox = 0.45;  // the same for nodes held on the box: two of them must not meet
 constexpr double kParallel = 0.2;  // sine of the angle below which two planes have no useful intersection
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 // A plane that stands for all quads at the node between the same two materials.
 struct Plane {
   std::array<std::int32_t, 2> materials;

@@ -27,8 +27,6 @@ struct Proposal {
   std::array<Flip, Ring::kMost> flips;
 };
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 class Repair {
  public:
   Repair(HexMesh& mesh, const Fractions& fractions, const FaceNeighbours& neighbours, const NodeHexes& around)

@@ -8,8 +8,6 @@
 namespace sculpt {
 namespace {
 
-std::size_t at(std::int32_t id) { return static_cast<std::size_t>(id); }
-
 // Lowers the label of every component to the least label of its members; whether any was lowered.
 bool take_least(const std::vector<GhostExchange::Link>& links, const std::vector<GlobalId>& value,
                 Components& components) {

@@ -10,8 +10,6 @@ namespace {
 
 constexpr GlobalId kNodeFactor = 64, kHexFactor = 8;
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 // The faces of a hex that hold a corner.
 constexpr std::array<std::array<int, 3>, 8> kCornerFaces = [] {
   std::array<std::array<int, 3>, 8> faces{};

@@ -9,8 +9,6 @@ namespace {
 constexpr double kIntoSurface = 1.0 / 3;  // of the way from a curve node to the middle of the quads beside it
 constexpr double kSliding = 0.1;          // weight of a tangential deviation
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 // The two materials of the hexes around each node; second = -1 where there is one only.
 std::vector<std::pair<std::int32_t, std::int32_t>> materials_at_nodes(const HexMesh& mesh) {
   std::vector<std::pair<std::int32_t, std::int32_t>> found(mesh.position.size(), {-1, -1});

@@ -6,12 +6,6 @@
 #include "smooth/quality.hpp"
 
 namespace sculpt {
-namespace {
-
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
-}  // namespace
-
 ActiveSet::ActiveSet(HexMesh& mesh)
     : mesh_(mesh),
       around_(mesh),

@@ -3,8 +3,6 @@
 namespace sculpt {
 namespace {
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 // Marks the nodes of all hexes that have a marked node.
 void mark_layer(const HexMesh& mesh, const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to) {
   for (const Hex& hex : mesh.hexes) {

@@ -10,8 +10,6 @@ constexpr double kStepOfEdge = 0.5;  // longest step, of the shortest edge at th
 constexpr double kStepFloor =
     0.2;  // an edge counts at least this long there, in cells, so that collapsed ones open
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 // Solves H d = -g for a symmetric H (xx xy xz yy yz zz); false when H is not safely positive definite.
 bool descend(const double (&h)[6], const Vec3& g, Vec3& d) {
   if (!(h[0] > 0)) return false;

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double kUnits = 1099511627776.0;  // 2^40 per unit of quality
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 // What one rank finds; sums are integers.
 struct Tally {
   std::array<std::int64_t, 5> counts{0, 0, 0, 0, 0};  // hexes, <= 0, < 0.2, < 0.3, not positive inside

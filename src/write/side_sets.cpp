@@ -13,8 +13,6 @@ constexpr GlobalId kHexFactor = 8;  // ids of the hexes that pillow() makes of h
 constexpr int kTop = 5;             // the face of a buffer hex that lies where the old face was
 constexpr std::int64_t kGridBoundary = 1, kExterior = 2, kInterfaces = 3;  // sets of `fixed`
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 // Where a surface is met first.
 struct Place {
   std::int64_t axis, plane;

@@ -18,8 +18,6 @@
 namespace sculpt {
 namespace {
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 // The share of the mesh that this rank writes, in the numbering of its file.
 class RankPart {
  public:

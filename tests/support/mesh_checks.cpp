@@ -12,8 +12,6 @@
 namespace sculpt::test {
 namespace {
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 struct Face {
   std::array<LocalId, 4> sorted, around;
   LocalId hex;

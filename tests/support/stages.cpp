@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kFirstOffset = 0.3, kSecondOffset = 0.5;  // those of the program
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 Pillowed pillow_cells(const Comm& comm, const HexMesh& cells, const std::vector<std::uint8_t>& drop,
                       bool surfaces) {
   std::vector<std::int32_t> label = cells.material;

@@ -16,8 +16,6 @@
 namespace sculpt::test {
 namespace {
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 struct Traced {
   HexMesh cells;
   FaceNeighbours neighbours;

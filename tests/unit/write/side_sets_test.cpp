@@ -15,8 +15,6 @@
 namespace sculpt::test {
 namespace {
 
-std::size_t at(LocalId id) { return static_cast<std::size_t>(id); }
-
 struct Made {
   HexMesh mesh;
   std::vector<SideFace> faces;

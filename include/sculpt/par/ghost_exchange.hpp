@@ -31,8 +31,7 @@ class GhostExchange {
   void copy_to_ghosts(std::span<T> values) const {
     static_assert(std::is_trivially_copyable_v<T>);
     Messages out(send_.size());
-    for (std::size_t l = 0; l < send_.size(); ++l)
-      for (const LocalId item : send_[l].items) append(out[l], values[index(item)]);
+    for (std::size_t l = 0; l < send_.size(); ++l) pack<T>(send_[l], values, out[l]);
     const Messages in = swap(send_, out, receive_);
     for (std::size_t l = 0; l < receive_.size(); ++l)
       for (std::size_t i = 0; i < receive_[l].items.size(); ++i)
@@ -74,8 +73,7 @@ class GhostExchange {
   void reduce_to_owners(std::span<T> values, Combine&& combine) const {
     static_assert(std::is_trivially_copyable_v<T>);
     Messages out(receive_.size());
-    for (std::size_t l = 0; l < receive_.size(); ++l)
-      for (const LocalId item : receive_[l].items) append(out[l], values[index(item)]);
+    for (std::size_t l = 0; l < receive_.size(); ++l) pack<T>(receive_[l], values, out[l]);
     const Messages in = swap(receive_, out, send_);
     for (std::size_t l = 0; l < send_.size(); ++l) {
       const char* at = in[l].data();
@@ -126,6 +124,16 @@ class GhostExchange {
  private:
   using Messages = std::vector<std::vector<char>>;
   static std::size_t index(LocalId id) { return static_cast<std::size_t>(id); }
+  // The values of all items of a link, one after another.
+  template <class T>
+  static void pack(const Link& link, std::span<const T> values, std::vector<char>& bytes) {
+    bytes.resize(link.items.size() * sizeof(T));
+    char* to = bytes.data();
+    for (const LocalId item : link.items) {
+      std::memcpy(to, &values[index(item)], sizeof(T));
+      to += sizeof(T);
+    }
+  }
   // One message to every rank of `to`, one from every rank of `from`.
   [[nodiscard]] Messages swap(const std::vector<Link>& to, const Messages& out,
                               const std::vector<Link>& from) const;

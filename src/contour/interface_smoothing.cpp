@@ -12,37 +12,44 @@ constexpr double kSliding = 0.1;             // weight of a tangential deviation
 
 class Smoother {
  public:
-  Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule)
-      : mesh_(mesh), faces_(faces), rule_(rule) {}
+  Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule) : mesh_(mesh), faces_(faces), rule_(rule) {
+    std::vector<GlobalId> id;
+    std::vector<std::int32_t> owner;
+    x_.reserve(faces.nodes.size());
+    for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
+      x_.push_back(mesh.position[at(faces.nodes[i])]);
+      id.push_back(mesh.node_id[at(faces.nodes[i])]);
+      owner.push_back(mesh.node_owner[at(faces.nodes[i])]);
+      if (mesh.node_owner[at(faces.nodes[i])] == mesh.node_exchange.comm().rank())
+        owned_.push_back(static_cast<LocalId>(i));
+    }
+    exchange_ = GhostExchange(mesh.node_exchange.comm(), id, owner);
+  }
 
   // One Jacobi pass: every node goes `factor` of the way to where it wants to be. Rules that keep the shape
   // of a smooth curve by themselves have no part in the growing passes.
   void pass(double factor) {
-    const int rank = mesh_.node_exchange.comm().rank();
-    moved_.resize(faces_.nodes.size());
-    for (std::size_t i = 0; i < faces_.nodes.size(); ++i) {
-      const LocalId n = faces_.nodes[i];
-      moved_[i] = mesh_.position[at(n)];
-      if (mesh_.node_owner[at(n)] == rank)
-        moved_[i] += factor * held_on_box(wish(i, factor < 0), mesh_.box_sides[at(n)]);
-    }
-    for (std::size_t i = 0; i < faces_.nodes.size(); ++i) mesh_.position[at(faces_.nodes[i])] = moved_[i];
-    mesh_.node_exchange.copy_to_ghosts(mesh_.position);
+    moved_ = x_;
+    for (const LocalId i : owned_) moved_[at(i)] += factor * held_on_box(wish(at(i), factor < 0), sides(i));
+    x_.swap(moved_);
+    exchange_.copy_to_ghosts(x_);
   }
 
   void project(const std::vector<Crossing>& crossings) {
-    const int rank = mesh_.node_exchange.comm().rank();
-    for (std::size_t i = 0; i < faces_.nodes.size(); ++i) {
-      const LocalId n = faces_.nodes[i];
-      if (mesh_.node_owner[at(n)] != rank) continue;
-      Vec3& p = mesh_.position[at(n)];
-      p += held_on_box(onto_interface(mesh_, faces_, crossings, i, p) - p, mesh_.box_sides[at(n)]);
+    for (const LocalId i : owned_) {
+      Vec3& p = x_[at(i)];
+      p += held_on_box(onto_interface(mesh_, faces_, crossings, at(i), p) - p, sides(i));
     }
-    mesh_.node_exchange.copy_to_ghosts(mesh_.position);
+    exchange_.copy_to_ghosts(x_);
+  }
+
+  // The result goes to the mesh, ghosts included.
+  void finish() {
+    for (std::size_t i = 0; i < x_.size(); ++i) mesh_.position[at(faces_.nodes[i])] = x_[i];
   }
 
  private:
-  [[nodiscard]] const Vec3& position(LocalId i) const { return mesh_.position[at(faces_.nodes[at(i)])]; }
+  [[nodiscard]] const Vec3& position(LocalId i) const { return x_[at(i)]; }
   [[nodiscard]] std::uint8_t sides(LocalId i) const { return mesh_.box_sides[at(faces_.nodes[at(i)])]; }
 
   [[nodiscard]] Vec3 towards_mean(std::size_t i, std::span<const LocalId> of) const {
@@ -135,8 +142,9 @@ class Smoother {
     Vec3 sum;
     for (const LocalId item : faces_.node_quads[at(i)]) {
       const auto& n = faces_.quads[at(item / 4)].node;
-      sum += unit(cross(mesh_.position[at(n[2])] - mesh_.position[at(n[0])],
-                        mesh_.position[at(n[3])] - mesh_.position[at(n[1])]));
+      std::array<Vec3, 4> p;
+      for (std::size_t v = 0; v < 4; ++v) p[v] = position(faces_.index_of[at(n[v])]);
+      sum += unit(cross(p[2] - p[0], p[3] - p[1]));
     }
     return unit(sum);
   }
@@ -144,7 +152,10 @@ class Smoother {
   HexMesh& mesh_;
   const Interfaces& faces_;
   CurveRule rule_;
-  std::vector<Vec3> moved_;
+  std::vector<Vec3> x_,
+      moved_;               // positions by interface node: close together in memory, unlike those of the mesh
+  GhostExchange exchange_;  // of interface nodes
+  std::vector<LocalId> owned_;  // interface nodes of this rank
 };
 
 }  // namespace
@@ -159,6 +170,7 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
     else
       smoother.pass(options.grow);
   }
+  smoother.finish();
   const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
   for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
     Vec3& p = mesh.position[at(faces.nodes[i])];

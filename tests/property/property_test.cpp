@@ -59,8 +59,7 @@ void expect_sound(const Case& input, const StagesResult& result, int pillows) {
   EXPECT_EQ(conformity_problem(mesh, pillows), "") << input.name;
   EXPECT_EQ(box_problem(mesh, input.grid), "") << input.name;
   EXPECT_GT(least_scaled_jacobian(mesh), 0) << input.name;
-  // Smoothing looks at the corners of hexes; that one in many thousands folds inside all the same is told to
-  // the user.
+  // Corners are not all: a hex may fold inside.
   EXPECT_EQ(summarise(Comm::self(), mesh).not_positive_inside, 0) << input.name;
 }
 

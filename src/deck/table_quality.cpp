@@ -242,6 +242,7 @@ constexpr OptionSpec kImproveOptions[] = {
      .slot = &Deck::defeature,
      .help = "Remove small features",
      .about = "filter: small volumes, protrusions and isthmuses; collapse: small curves and surfaces.",
+     .supported = true,
      .values = kDefeatures},
     {.name = "min_vol_cells",
      .flag = "-mvs",
@@ -249,6 +250,7 @@ constexpr OptionSpec kImproveOptions[] = {
      .slot = &Deck::min_vol_cells,
      .help = "Cells of a volume that is removed",
      .about = "A connected group with this many cells or fewer goes to its dominant neighbour.",
+     .supported = true,
      .lo = 0,
      .hi = kMaxCount},
     {.name = "defeature_bbox",
@@ -256,13 +258,15 @@ constexpr OptionSpec kImproveOptions[] = {
      .group = kM,
      .slot = &Deck::defeature_bbox,
      .help = "Defeature at the sides of the box too",
-     .about = "Used with defeature."},
+     .about = "Used with defeature.",
+     .supported = true},
     {.name = "defeature_iters",
      .flag = "-dfi",
      .group = kM,
      .slot = &Deck::defeature_iters,
      .help = "Iterations of defeature",
      .about = "Largest number of rounds; stops when nothing changes.",
+     .supported = true,
      .lo = 0,
      .hi = kMaxCount},
     {.name = "thicken_material",
@@ -270,9 +274,12 @@ constexpr OptionSpec kImproveOptions[] = {
      .group = kM,
      .slot = &Deck::thicken_material,
      .help = "Expand a material into its neighbours",
-     .about = "Id and a value from 0 to 1 added to the material's volume fraction in every neighbour cell. "
-              "Lines are "
-              "applied in their order.",
+     .about = "Id and a value from 0 to 1 added to the material's volume fraction in the cells beside it, "
+              "less where "
+              "little of it is around and more in notches. Lines are applied in their order. The value auto "
+              "(not in "
+              "Sculpt) is found such that the material has the same volume in the mesh as in the input.",
+     .supported = true,
      .lo = 0,
      .hi = 1,
      .unset = "none"},
@@ -281,8 +288,12 @@ constexpr OptionSpec kImproveOptions[] = {
      .group = kM,
      .slot = &Deck::thicken_void,
      .help = "Separate materials by void",
-     .about = "Void is inserted where two materials would touch.",
+     .about = "Void is inserted where two materials would touch. Above 0 and up to 0.5: cells of the "
+              "material with the "
+              "larger id become void, a gap of one cell; above 0.5: the cells on both sides.",
+     .supported = true,
      .lo = 0,
+     .hi = 1,
      .unset = "off"},
     {.name = "micro_expand",
      .flag = "-me",
@@ -301,6 +312,24 @@ constexpr OptionSpec kImproveOptions[] = {
      .slot = &Deck::micro_shave,
      .help = "Remove isolated cells at the boundary",
      .about = "Isolated cells at the boundary of the microstructure are taken away.",
+     .supported = true},
+    {.name = "resolve_reversals",
+     .flag = "-rr",
+     .group = kM,
+     .slot = &Deck::resolve_reversals,
+     .help = "Remove faces that are back to back",
+     .about = "Not an option of Sculpt. Cells are reassigned where two faces of one interface meet at a node "
+              "and look "
+              "in opposite directions, as in a layer one cell thick. For stochastic data.",
+     .supported = true},
+    {.name = "keep_materials",
+     .flag = "-km",
+     .group = kM,
+     .slot = &Deck::keep_materials,
+     .help = "No material of the input vanishes",
+     .about = "Not an option of Sculpt. One cell of every material, in its largest connected piece, is never "
+              "given to "
+              "another material.",
      .supported = true},
     {.name = "remove_bad",
      .flag = "-rb",

@@ -119,7 +119,8 @@ void assign(Ids& field, std::span<const std::string> words, const Complaint& c) 
   field = ids;
 }
 void assign(std::vector<MaterialValue>& field, std::span<const std::string> words, const Complaint& c) {
-  field.push_back({id(words[0], c), real(words[1], c.option.lo, c.option.hi, c)});
+  field.push_back({id(words[0], c),
+                   words[1] == "auto" ? MaterialValue::kAuto : real(words[1], c.option.lo, c.option.hi, c)});
 }
 void assign(std::vector<IdName>& field, std::span<const std::string> words, const Complaint& c) {
   if (words[1].empty()) c.fail("an id and a name");
@@ -192,7 +193,8 @@ std::string text_of(const Ids& value, const OptionSpec&, Style) {
   return fmt::format("{}", fmt::join(value, " "));
 }
 std::string text_of(const MaterialValue& record, const OptionSpec&, Style style) {
-  return fmt::format("{} {}", record.id, number_text(record.value, style));
+  return fmt::format("{} {}", record.id,
+                     record.value == MaterialValue::kAuto ? "auto" : number_text(record.value, style));
 }
 std::string text_of(const IdName& record, const OptionSpec&, Style style) {
   return fmt::format("{} {}", record.id, style == Style::kDeck ? quoted(record.name) : record.name);

@@ -41,23 +41,4 @@ void assign_materials(HexMesh& mesh, const Fractions& fractions, const FaceNeigh
   mesh.hex_exchange.copy_to_ghosts(mesh.material);  // the outermost ghosts lack neighbours
 }
 
-std::int64_t shave_boundary(HexMesh& mesh, const FaceNeighbours& neighbours, std::int32_t to) {
-  std::vector<LocalId> isolated;
-  for (LocalId c = 0; c < mesh.size(); ++c) {
-    const auto cell = static_cast<std::size_t>(c);
-    if (mesh.layer[cell] != 0) continue;
-    bool on_box = false, alone = true, has_neighbour = false;
-    for (const LocalId n : neighbours[cell]) {
-      on_box = on_box || n == kNone;
-      if (n == kNone) continue;
-      has_neighbour = true;
-      alone = alone && mesh.material[static_cast<std::size_t>(n)] != mesh.material[cell];
-    }
-    if (on_box && alone && has_neighbour && mesh.material[cell] != to) isolated.push_back(c);
-  }
-  for (const LocalId c : isolated) mesh.material[static_cast<std::size_t>(c)] = to;
-  mesh.hex_exchange.copy_to_ghosts(mesh.material);
-  return mesh.hex_exchange.comm().sum(static_cast<std::int64_t>(isolated.size()));
-}
-
 }  // namespace sculpt

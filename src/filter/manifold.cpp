@@ -2,6 +2,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "filter/edits.hpp"
 #include "filter/ring.hpp"
 #include "sculpt/filter/filter.hpp"
 #include "sculpt/vfrac/fractions.hpp"
@@ -11,10 +12,11 @@ namespace {
 
 constexpr double kNoClaim = std::numeric_limits<double>::infinity();
 constexpr int kPasses = 60;        // of the cost-driven repair, then the last resort
+constexpr int kLockedPasses = 90;  // then locked cells are no longer spared
+constexpr int kReversalPasses = 10;
 constexpr double kFrozen = 1000;   // cost that keeps a cell from changing again
-constexpr int kFreezeAfter = 4;    // changes of one cell
 constexpr double kContact = 0.05;  // cost per face neighbour of the old (+) and of the new (-) material
-constexpr double kBias = 0.1;      // grows as 2^changes - 1 (section 2.7.1 of the report: changes must stick)
+constexpr double kReversed = 0.1;  // squared sine: faces within 18 degrees of being back to back
 
 struct Flip {
   int slot;  // in the ring
@@ -27,59 +29,128 @@ struct Proposal {
   std::array<Flip, Ring::kMost> flips;
 };
 
-class Repair {
- public:
-  Repair(HexMesh& mesh, const Fractions& fractions, const FaceNeighbours& neighbours, const NodeHexes& around)
-      : mesh_(mesh),
-        fractions_(fractions),
-        neighbours_(neighbours),
-        around_(around),
-        changes_(mesh.hexes.size(), 0),
-        bad_(mesh.position.size(), 0),
-        stale_(mesh.position.size(), 1),
-        claim_(mesh.position.size(), kNoClaim) {}
+}  // namespace
 
-  ManifoldReport run() {
-    const Comm& comm = mesh_.node_exchange.comm();
-    ManifoldReport report;
-    find_bad_nodes();
-    report.bad_nodes = comm.sum(static_cast<std::int64_t>(active_.size()));
-    for (std::int64_t left = report.bad_nodes; left > 0;
-         left = comm.sum(static_cast<std::int64_t>(active_.size()))) {
-      last_resort_ = report.passes++ >= kPasses;
-      if (last_resort_) report.forced_nodes = std::max(report.forced_nodes, left);
-      collectively(comm, "resolving non-manifold nodes", [&] { propose(); });
-      share_claims();
-      report.changed_cells += comm.sum(apply_winners());
+class ManifoldRepair::Work {
+ public:
+  explicit Work(Edits& edits)
+      : edits_(edits),
+        mesh_(edits.mesh),
+        neighbours_(edits.neighbours),
+        around_(edits.around),
+        bad_(mesh_.position.size(), 0),
+        stale_(mesh_.position.size(), 1),
+        claim_(mesh_.position.size(), kNoClaim) {
+    complete_.assign(mesh_.position.size(), 0);
+    for (std::size_t c = 0; c < mesh_.hexes.size(); ++c)
+      if (mesh_.layer[c] <= 1)
+        for (const LocalId n : mesh_.hexes[c]) complete_[at(n)] = 1;
+  }
+
+  std::int64_t run(FilterReport& report) {
+    const Comm& comm = edits_.comm();
+    if (!looked_) {
+      find_bad_nodes();
+      if (first_) report.bad_nodes = comm.sum(static_cast<std::int64_t>(active_.size()));
+      first_ = false;
+    } else {
+      refresh();
     }
-    return report;
+    std::int64_t changes = 0;
+    int passes = 0;
+    for (std::int64_t left = comm.sum(static_cast<std::int64_t>(active_.size())); left > 0;
+         left = comm.sum(static_cast<std::int64_t>(active_.size()))) {
+      spare_locked_ = passes < kLockedPasses;
+      last_resort_ = passes++ >= kPasses;
+      if (last_resort_) report.forced_nodes = std::max(report.forced_nodes, left);
+      changes += pass();
+    }
+    report.manifold_cells += changes;
+    report.manifold_passes += passes;
+    return changes;
+  }
+
+  std::int64_t remove_reversals(FilterReport& report) {
+    const Comm& comm = edits_.comm();
+    reversals_ = true;
+    find_bad_nodes();
+    if (report.reversals == 0) report.reversals = comm.sum(static_cast<std::int64_t>(active_.size()));
+    std::int64_t changes = 0;
+    last_resort_ = false;
+    for (int i = 0; i < kReversalPasses && comm.sum(static_cast<std::int64_t>(active_.size())) > 0; ++i)
+      changes += pass();
+    reversals_ = false;
+    looked_ = false;
+    changes += run(report);
+    return changes;
   }
 
  private:
+  std::int64_t pass() {
+    collectively(edits_.comm(), "resolving non-manifold nodes", [&] { propose(); });
+    share_claims();
+    return edits_.comm().sum(apply_winners());
+  }
   bool is_bad(LocalId node) const {
     const auto items = around_[node];
     const std::int32_t first = mesh_.material[at(items[0] / 8)];
     bool mixed = false;
     for (const std::int32_t item : items) mixed = mixed || mesh_.material[at(item / 8)] != first;
-    return mixed && !ring_of(mesh_, neighbours_, around_, node).manifold(materials(items));
+    if (!mixed) return false;
+    const Ring ring = ring_of(mesh_, neighbours_, around_, node);
+    return !acceptable(ring, materials(items));
   }
+  struct Side {  // of an interface, seen from the smaller material
+    std::int32_t from, to;
+    Vec3 normal;
+  };
+  // While reversals are removed a node with one is as bad as a non-manifold one.
+  bool acceptable(const Ring& ring, std::span<const std::int32_t> material) const {
+    return ring.manifold(material) && (!reversals_ || !reversed(ring, material));
+  }
+  // Whether two faces of one interface at the node are back to back (equation 2.3).
+  bool reversed(const Ring& ring, std::span<const std::int32_t> material) const {
+    std::vector<Side>& sides = sides_;
+    sides.clear();
+    for (std::size_t c = 0; c < material.size(); ++c)
+      for (std::uint64_t t = ring.touching[c] >> c >> 1 << c << 1; t != 0; t &= t - 1) {
+        const auto d = static_cast<std::size_t>(std::countr_zero(t));
+        if (material[c] == material[d]) continue;
+        const Vec3 across = unit(centre(ring.cell[d]) - centre(ring.cell[c]));
+        if (material[c] < material[d])
+          sides.push_back({material[c], material[d], across});
+        else
+          sides.push_back({material[d], material[c], -across});
+      }
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      for (std::size_t j = i + 1; j < sides.size(); ++j)
+        if (sides[i].from == sides[j].from && sides[i].to == sides[j].to &&
+            dot(sides[i].normal, sides[j].normal) < kReversed - 1)
+          return true;
+    return false;
+  }
+  Vec3 centre(LocalId cell) const {
+    Vec3 sum;
+    for (const Vec3& p : mesh_.corners(cell)) sum += 0.125 * p;
+    return sum;
+  }
+
   std::span<const std::int32_t> materials(std::span<const std::int32_t> items) const {
     for (std::size_t i = 0; i < items.size(); ++i) scratch_[i] = mesh_.material[at(items[i] / 8)];
     return {scratch_.data(), items.size()};
   }
 
+  // Nodes of owned and first-layer cells have complete rings; proposals look at all of them.
   void find_bad_nodes() {
-    // Nodes of owned and first-layer cells have complete rings; proposals look at all of them.
-    std::vector<std::uint8_t> complete(mesh_.position.size(), 0);
-    for (std::size_t c = 0; c < mesh_.hexes.size(); ++c)
-      if (mesh_.layer[c] <= 1)
-        for (const LocalId n : mesh_.hexes[c]) complete[at(n)] = 1;
+    active_.clear();
+    std::fill(stale_.begin(), stale_.end(), std::uint8_t{1});
     for (LocalId n = 0; n < mesh_.nodes(); ++n) {
-      if (!complete[at(n)]) continue;
+      if (!complete_[at(n)]) continue;
       bad_[at(n)] = is_bad(n);
       if (bad_[at(n)] && owned(n)) active_.push_back(n);
     }
-    complete_ = std::move(complete);
+    seen_ = edits_.changed().size();
+    looked_ = true;
   }
   bool owned(LocalId n) const { return mesh_.node_owner[at(n)] == mesh_.node_exchange.comm().rank(); }
 
@@ -91,10 +162,7 @@ class Repair {
       with_old += mesh_.material[at(n)] == from;
       with_new += mesh_.material[at(n)] == to;
     }
-    const int changes = changes_[at(cell)];
-    return fraction_of(fractions_, cell, from) - fraction_of(fractions_, cell, to) +
-           kContact * (with_old - with_new) + kBias * ((1 << std::min(changes, 6)) - 1) +
-           (changes >= kFreezeAfter ? kFrozen : 0.0);
+    return edits_.loss(cell, to) + kContact * (with_old - with_new) + (edits_.frozen(cell) ? kFrozen : 0.0);
   }
 
   // Change in the number of non-manifold nodes around the flipped cells if the flips were made.
@@ -138,7 +206,7 @@ class Repair {
     const double reach =
         static_cast<double>(8 * chosen.size());  // no look-ahead can gain more than its nodes
     if (cost - reach >= best.cost) return;
-    if (!ring.manifold({changed.data(), material.size()})) return;
+    if (!acceptable(ring, {changed.data(), material.size()})) return;
     cost += look_ahead(ring, {flips.data(), chosen.size()});
     if (cost >= best.cost - 1e-12) return;
     best.cost = cost;
@@ -160,12 +228,13 @@ class Repair {
     std::vector<Single> singles;
     for (int c = 0; c < ring.size; ++c)
       for (const std::int32_t m : present)
-        if (m != own[static_cast<std::size_t>(c)])
+        if (m != own[static_cast<std::size_t>(c)] && !edits_.locked(ring.cell[static_cast<std::size_t>(c)]))
           singles.push_back({{c, m}, cost_of(ring.cell[static_cast<std::size_t>(c)], m)});
     Proposal best;
     for (const Single& s : singles) consider(ring, material, {&s, 1}, best);
     if (best.count == 0 || best.cost > 0.9) pairs(ring, material, singles, best);
     if (best.count == 0 && singles.size() <= 24) triples(ring, material, singles, best);
+    if (reversals_) return best;  // a reversal without a way out stays
     if (best.count == 0 || best.cost > 0.9 * kFrozen) {
       std::int32_t most = present.front();
       for (const std::int32_t m : present)
@@ -192,11 +261,13 @@ class Repair {
               singles[b].flip.slot != singles[c].flip.slot)
             consider(ring, material, std::array{singles[a], singles[b], singles[c]}, best);
   }
-  static Proposal all_to(const Ring& ring, std::span<const std::int32_t> material, std::int32_t m) {
+  Proposal all_to(const Ring& ring, std::span<const std::int32_t> material, std::int32_t m) const {
     Proposal p;
     p.cost = kFrozen;
     for (int c = 0; c < ring.size; ++c)
-      if (material[static_cast<std::size_t>(c)] != m) p.flips[static_cast<std::size_t>(p.count++)] = {c, m};
+      if (material[static_cast<std::size_t>(c)] != m &&
+          !(spare_locked_ && edits_.locked(ring.cell[static_cast<std::size_t>(c)])))
+        p.flips[static_cast<std::size_t>(p.count++)] = {c, m};
     return p;
   }
 
@@ -236,24 +307,18 @@ class Repair {
     for (const LocalId n : active_) claim_[at(n)] = kNoClaim;
     for (const LocalId n : claimed_ghosts_) claim_[at(n)] = kNoClaim;
 
-    changed_cells_.clear();
     std::int64_t changes = 0;
     std::vector<std::uint8_t> won(mesh_.position.size(), 0);
     for (const LocalId n : winners) {
       won[at(n)] = 1;
       for (const Flip& f : proposals_.at(n).flips) {
-        change(around_[n][static_cast<std::size_t>(f.slot)] / 8, f.to);
+        edits_.change(around_[n][static_cast<std::size_t>(f.slot)] / 8, f.to);
         ++changes;
       }
     }
     tell_ghosts(won);
     refresh();
     return changes;
-  }
-  void change(LocalId cell, std::int32_t to) {
-    mesh_.material[at(cell)] = to;
-    ++changes_[at(cell)];
-    changed_cells_.push_back(cell);
   }
   void tell_ghosts(const std::vector<std::uint8_t>& won) {
     using G = GhostExchange;
@@ -275,7 +340,7 @@ class Repair {
             G::take(from, cell);
             G::take(from, to);
             for (const std::int32_t item : around_[ghost])
-              if (mesh_.hex_id[at(item / 8)] == cell) change(item / 8, to);
+              if (mesh_.hex_id[at(item / 8)] == cell) edits_.change(item / 8, to);
           }
           return from;
         });
@@ -284,8 +349,8 @@ class Repair {
   // Re-examines the nodes of changed cells; proposals within reach of a change are made anew.
   void refresh() {
     std::vector<LocalId> next = std::move(active_);
-    for (const LocalId cell : changed_cells_)
-      for (const LocalId n : mesh_.hexes[at(cell)]) {
+    for (; seen_ < edits_.changed().size(); ++seen_)
+      for (const LocalId n : mesh_.hexes[at(edits_.changed()[seen_])]) {
         if (complete_[at(n)]) {
           bad_[at(n)] = is_bad(n);
           if (owned(n)) next.push_back(n);
@@ -305,27 +370,28 @@ class Repair {
     std::vector<Flip> flips;
   };
 
+  Edits& edits_;
   HexMesh& mesh_;
-  const Fractions& fractions_;
   const FaceNeighbours& neighbours_;
   const NodeHexes& around_;
-  std::vector<std::uint8_t> changes_;              // per cell
   std::vector<std::uint8_t> bad_;                  // per node with a complete ring
   std::vector<std::uint8_t> complete_;             // per node
   std::vector<std::uint8_t> stale_;                // per node: its proposal must be made anew
   std::vector<double> claim_;                      // per node: cost of its proposal in this pass
   std::unordered_map<LocalId, Stored> proposals_;  // of active nodes; looked up, never walked
   std::vector<LocalId> active_;                    // owned non-manifold nodes, ascending
-  std::vector<LocalId> claimed_ghosts_, changed_cells_, touched_;
+  std::vector<LocalId> claimed_ghosts_, touched_;
+  std::size_t seen_ = 0;  // changes of the cells looked at so far
   mutable std::array<std::int32_t, Ring::kMost> scratch_{};
-  bool last_resort_ = false;
+  mutable std::vector<Side> sides_;
+  bool first_ = true, looked_ = false, last_resort_ = false, spare_locked_ = true, reversals_ = false;
 };
 
-}  // namespace
-
-ManifoldReport resolve_non_manifold(HexMesh& mesh, const Fractions& fractions,
-                                    const FaceNeighbours& neighbours, const NodeHexes& around) {
-  return Repair(mesh, fractions, neighbours, around).run();
+ManifoldRepair::ManifoldRepair(Edits& edits) : work_(std::make_unique<Work>(edits)) {}
+ManifoldRepair::~ManifoldRepair() = default;
+std::int64_t ManifoldRepair::run(FilterReport& report) { return work_->run(report); }
+std::int64_t ManifoldRepair::remove_reversals(FilterReport& report) {
+  return work_->remove_reversals(report);
 }
 
 bool interfaces_are_manifold(const HexMesh& mesh, const FaceNeighbours& neighbours, const NodeHexes& around) {

@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <limits>
 #include <optional>
 
+#include "pipeline/classify.hpp"
 #include "pipeline/console.hpp"
 #include "pipeline/interface_geometry.hpp"
 #include "sculpt/brep/brep.hpp"
@@ -15,11 +17,11 @@
 #include "sculpt/contour/interface_smoothing.hpp"
 #include "sculpt/distribute/cartesian.hpp"
 #include "sculpt/exo/rank_mesh.hpp"
-#include "sculpt/filter/filter.hpp"
 #include "sculpt/input/material_source.hpp"
 #include "sculpt/pillow/pillow.hpp"
 #include "sculpt/pipeline/stages.hpp"
 #include "sculpt/smooth/smooth.hpp"
+#include "sculpt/smooth/volume_correction.hpp"
 #include "sculpt/vfrac/fractions.hpp"
 #include "sculpt/write/side_sets.hpp"
 #include "sculpt/write/write_mesh.hpp"
@@ -107,32 +109,6 @@ void refuse_empty_mesh(const Comm& comm, const Overlay& overlay, const std::vect
       overlay.grid[0], overlay.grid[1], overlay.grid[2]));
 }
 
-void classify(const Comm& comm, const Deck& deck, Overlay& overlay, const Log& log, Stages& stages) {
-  HexMesh& cells = overlay.cells;
-  const FaceNeighbours& neighbours = overlay.neighbours = face_neighbours(cells);
-  log.line("(2/9) classifying materials...");
-  assign_materials(cells, overlay.fractions, neighbours);
-  if (deck.micro_shave) {
-    const bool first_is_void = overlay.materials.void_material == 0 && overlay.materials.block_id.size() > 1;
-    const std::int64_t shaved = shave_boundary(cells, neighbours, first_is_void ? 1 : 0);
-    log.line("  micro_shave: {} isolated cells at the boundary reassigned", shaved);
-  }
-  stages.end("classify materials");
-  log.line("(3/9) resolving non-manifolds...");
-  if (deck.stair == kStairFast) return;
-  const NodeHexes& around = overlay.around.emplace(cells);
-  const ManifoldReport report = resolve_non_manifold(cells, overlay.fractions, neighbours, around);
-  log.line("  {} non-manifold nodes, {} cells reassigned in {} passes", report.bad_nodes,
-           report.changed_cells, report.passes);
-  if (report.forced_nodes > 0)
-    log.line("  WARNING: {} nodes were settled by merging their materials", report.forced_nodes);
-  follow_assignment(overlay.fractions, cells.material);
-  collectively(comm, "resolving non-manifolds", [&] {
-    check(interfaces_are_manifold(cells, neighbours, around), "a material interface is not manifold");
-  });
-  stages.end("resolve non-manifolds");
-}
-
 // Interface nodes placed and smoothed on the overlay grid; what the smoother must know of them.
 struct Contour {
   Interfaces faces;
@@ -157,6 +133,29 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
   return c;
 }
 
+// Volume of each material, in cells, if the cells were contoured as they are now.
+std::vector<double> contoured_volumes(const Comm& comm, const Deck& deck, Overlay& overlay) {
+  constexpr double kUnits = 1073741824.0;  // 2^30: sums of integers do not depend on ranks
+  HexMesh& cells = overlay.cells;
+  const std::vector<Vec3> grid = cells.position;
+  Stages untimed;
+  const Contour shape = contour(deck, overlay, Log(false), untimed);
+  const double cell = cells.cell_size.x * cells.cell_size.y * cells.cell_size.z;
+  std::vector<std::int64_t> units(overlay.materials.block_id.size(), 0);
+  for (LocalId c = 0; c < cells.size(); ++c) {
+    if (cells.layer[at(c)] != 0) continue;
+    bool bent = false;
+    for (const LocalId n : cells.hexes[at(c)]) bent = bent || shape.faces.index_of[at(n)] != kNone;
+    units[at(cells.material[at(c)])] +=
+        std::llround(kUnits * (bent ? hex_volume(cells.corners(c)) / cell : 1.0));
+  }
+  comm.sum(units);
+  cells.position = grid;
+  std::vector<double> volumes;
+  for (const std::int64_t u : units) volumes.push_back(static_cast<double>(u) / kUnits);
+  return volumes;
+}
+
 // The interfaces of a mesh that keeps the shape of the cells. Cells that are left out count as one material.
 Contour stair_interfaces(Overlay& overlay, const std::vector<std::uint8_t>& drop, const Log& log) {
   log.line("(4/9) computing dual edge intersections...");
@@ -176,9 +175,20 @@ SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& ov
                         deck.gen_sidesets);
 }
 
+// Smoothing moves volumes a little; materials that were thickened to a volume get the rest of it here.
+void correct_thickened_volumes(const Deck& deck, HexMesh& mesh, const Geometry& geometry,
+                               const std::vector<double>& wanted, const Log& log, Stages& stages) {
+  if (std::none_of(wanted.begin(), wanted.end(), [](double v) { return v >= 0; })) return;
+  const VolumeCorrection done = correct_volumes(mesh, geometry.index, wanted, deck.pcol_threshold);
+  log.line("Volume correction: {} rounds, largest error left {:.4f} %, farthest move of a node {:.3f} cells",
+           done.rounds, 100 * done.error, done.farthest);
+  stages.end("correct volumes");
+}
+
 // Hexes of the cells, without smoothing (stair) or with buffer layers and smoothing; and what their side sets
 // will be.
-HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, SidePlan& sides, const Log& log,
+HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
+                   const std::vector<double>& wanted_volumes, SidePlan& sides, const Log& log,
                    Stages& stages) {
   const std::vector<std::uint8_t> drop = unmeshed_cells(deck, overlay);
   refuse_empty_mesh(comm, overlay, drop);
@@ -214,6 +224,7 @@ HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, SidePlan
     smooth_mesh(result.mesh, geometry, smooth_options(deck, overlay.pure), log);
   }
   stages.end("smooth volume");
+  correct_thickened_volumes(deck, result.mesh, geometry, wanted_volumes, log, stages);
   return std::move(result.mesh);
 }
 
@@ -247,12 +258,15 @@ void run(const Comm& comm, const Deck& deck) {
   Overlay overlay = read_overlay(comm, deck, log, stages);
   log.line("begin SCULPT meshing...");
   log.line("(1/9) computing normals...");
-  const MaterialTable materials = overlay.materials;
   std::optional<VolumeTable> input_volumes;
-  if (deck.compare_volume) input_volumes.emplace(comm, overlay.cells, overlay.fractions, materials);
-  classify(comm, deck, overlay, log, stages);
+  if (deck.compare_volume) input_volumes.emplace(comm, overlay.cells, overlay.fractions, overlay.materials);
+  overlay.neighbours = face_neighbours(overlay.cells);
+  const std::vector<double> wanted_volumes = classify(
+      comm, deck, overlay.cells, overlay.fractions, overlay.materials, overlay.neighbours, overlay.around,
+      [&] { return contoured_volumes(comm, deck, overlay); }, log, stages);
+  const MaterialTable materials = overlay.materials;
   SidePlan sides;
-  const HexMesh mesh = build_mesh(comm, deck, std::move(overlay), sides, log, stages);
+  const HexMesh mesh = build_mesh(comm, deck, std::move(overlay), wanted_volumes, sides, log, stages);
 
   log.line("building exodus mesh...");
   log.line("generating global ids...");

@@ -36,7 +36,7 @@ Overlay overlay(const Case& input) { return overlay(Comm::self(), input); }
 
 Overlay filtered(const Comm& comm, const Case& input, int layers) {
   Overlay o = overlay(comm, input, layers);
-  (void)resolve_non_manifold(o.cells, o.fractions, face_neighbours(o.cells), NodeHexes(o.cells));
+  (void)filter_materials(o.cells, o.fractions, face_neighbours(o.cells), NodeHexes(o.cells));
   follow_assignment(o.fractions, o.cells.material);
   return o;
 }
@@ -55,7 +55,7 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   note("assign", cells);
   const FaceNeighbours neighbours = face_neighbours(cells);
   const NodeHexes around(cells);
-  (void)resolve_non_manifold(cells, o.fractions, neighbours, around);
+  (void)filter_materials(cells, o.fractions, neighbours, around);
   note("filter", cells);
   follow_assignment(o.fractions, cells.material);
 

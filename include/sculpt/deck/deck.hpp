@@ -74,8 +74,9 @@ enum HtetTransition : int { kHtetNone = 0, kHtetPyramid = 1, kHtetTiedContact = 
 enum InputMeshMaterial : int { kMeshMaterialAutomatic = 0, kMeshMaterialGeometryAndBlocks = 1 };
 enum PeriodicAxis : int { kAxisNone = 0, kAxisX = 1, kAxisY = 2, kAxisZ = 3 };
 
-// `thicken_material = 3 0.2`
+// `thicken_material = 3 0.2`, `thicken_material = 1 auto`
 struct MaterialValue {
+  static constexpr double kAuto = -1;  // the program finds the value
   std::int64_t id = 0;
   double value = 0;
   bool operator==(const MaterialValue&) const = default;
@@ -251,7 +252,9 @@ struct Deck {
   double thicken_void = 0;
   int micro_expand = 0;
   bool micro_shave = false;
-  double remove_bad = -1;  // -1: nothing is removed
+  bool resolve_reversals = false;  // ours
+  bool keep_materials = false;     // ours
+  double remove_bad = -1;          // -1: nothing is removed
   int wear_method = 0;
   double crack_min_elem_thickness = 0;
   int min_num_layers = 0;

@@ -84,9 +84,9 @@ TEST(ResolveNonManifold, ReportsTheSameAloneAndTogether) {
                             })}) {
     Overlay together = overlay(world, input), alone = overlay(input);
     const auto resolve = [](Overlay& o) {
-      return resolve_non_manifold(o.cells, o.fractions, face_neighbours(o.cells), NodeHexes(o.cells));
+      return filter_materials(o.cells, o.fractions, face_neighbours(o.cells), NodeHexes(o.cells));
     };
-    const ManifoldReport a = resolve(together), b = resolve(alone);
+    const FilterReport a = resolve(together), b = resolve(alone);
     EXPECT_EQ(a.bad_nodes, b.bad_nodes) << input.name;
     EXPECT_EQ(a.changed_cells, b.changed_cells) << input.name;
     EXPECT_EQ(a.passes, b.passes) << input.name;

@@ -11,8 +11,8 @@ bool manifold(const HexMesh& mesh) {
   return interfaces_are_manifold(mesh, face_neighbours(mesh), NodeHexes(mesh));
 }
 
-ManifoldReport resolve(test::Overlay& o) {
-  return resolve_non_manifold(o.cells, o.fractions, face_neighbours(o.cells), NodeHexes(o.cells));
+FilterReport resolve(test::Overlay& o) {
+  return filter_materials(o.cells, o.fractions, face_neighbours(o.cells), NodeHexes(o.cells));
 }
 
 // A block of 2x2x2 cells with material 1 where the mask says so, inside a grid of material 0 or of 4x4x4
@@ -55,7 +55,7 @@ TEST(ResolveNonManifold, MendsEveryNodeOfTwoMaterials) {
     test::Overlay o = test::overlay(block_of_octants(mask));
     const bool before = manifold(o.cells);
     const std::vector<std::int32_t> material = o.cells.material;
-    const ManifoldReport report = resolve(o);
+    const FilterReport report = resolve(o);
     EXPECT_TRUE(manifold(o.cells)) << "mask " << mask;
     EXPECT_EQ(report.bad_nodes == 0, before) << "mask " << mask;
     EXPECT_EQ(o.cells.material == material, before) << "mask " << mask;
@@ -83,7 +83,7 @@ void expect_settled(const test::Case& input) {
   resolve(o);
   EXPECT_TRUE(manifold(o.cells)) << input.name;
   const std::vector<std::int32_t> material = o.cells.material;
-  const ManifoldReport again = resolve(o);
+  const FilterReport again = resolve(o);
   EXPECT_EQ(again.bad_nodes, 0) << input.name;
   EXPECT_EQ(again.changed_cells, 0) << input.name;
   EXPECT_EQ(o.cells.material, material) << input.name << ": a second run changes something";

@@ -1,0 +1,218 @@
+// Islands, protrusions and isthmuses (the report, section 2.7.2).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "filter/edits.hpp"
+#include "sculpt/vfrac/fractions.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double kNoClaim = std::numeric_limits<double>::infinity();
+constexpr double kUnits = 1073741824.0;  // 2^30 per unit of fraction
+constexpr int kForeignFaces = 4;         // of a protrusion or isthmus
+
+// The contact of a small piece with one material around it.
+struct Contact {
+  GlobalId island;
+  std::int32_t material;
+  std::int32_t blocked;      // 1: touches an island that goes first
+  std::int64_t firm, faces;  // faces towards larger pieces, and all
+  std::int64_t units;        // fraction of the material in the cells at those faces
+  [[nodiscard]] bool better_than(const Contact& o) const {
+    return std::tie(firm, faces, units, o.material) > std::tie(o.firm, o.faces, o.units, material);
+  }
+};
+
+void merge(std::vector<Contact>& contacts) {
+  std::sort(contacts.begin(), contacts.end(), [](const Contact& a, const Contact& b) {
+    return std::tie(a.island, a.material) < std::tie(b.island, b.material);
+  });
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < contacts.size(); ++i) {
+    if (contacts[i].island == contacts[last].island && contacts[i].material == contacts[last].material) {
+      contacts[last].blocked |= contacts[i].blocked;
+      contacts[last].firm += contacts[i].firm;
+      contacts[last].faces += contacts[i].faces;
+      contacts[last].units += contacts[i].units;
+    } else {
+      contacts[++last] = contacts[i];
+    }
+  }
+  if (!contacts.empty()) contacts.resize(last + 1);
+}
+
+// Contacts of the owned cells of small pieces.
+void find_contacts(const Edits& edits, const Pieces& p, const std::vector<std::uint8_t>& small,
+                   std::vector<Contact>& inner, std::vector<Contact>& shared) {
+  const auto rank_of = [&](std::size_t piece) { return std::pair(p.size[piece], p.label[piece]); };
+  for (LocalId c = 0; c < edits.mesh.size(); ++c) {
+    const std::size_t mine = at(p.of[at(c)]);
+    if (!small[mine] || !edits.owned(c)) continue;
+    for (const LocalId n : edits.neighbours[at(c)]) {
+      if (n == kNone || at(p.of[at(n)]) == mine) continue;
+      const std::size_t other = at(p.of[at(n)]);
+      const bool first = small[other] && rank_of(other) < rank_of(mine);
+      (p.shared[mine] ? shared : inner)
+          .push_back({p.label[mine], edits.material(n), first, !small[other], 1,
+                      std::llround(kUnits * fraction_of(edits.fractions, c, edits.material(n)))});
+    }
+  }
+}
+
+// Per island that changes now its new material, ascending in island.
+std::vector<std::pair<GlobalId, std::int32_t>> decide(const std::vector<Contact>& contacts) {
+  std::vector<std::pair<GlobalId, std::int32_t>> decided;
+  for (std::size_t first = 0; first < contacts.size();) {
+    std::size_t last = first, best = first;
+    bool blocked = false;
+    for (; last < contacts.size() && contacts[last].island == contacts[first].island; ++last) {
+      blocked = blocked || contacts[last].blocked;
+      if (contacts[last].better_than(contacts[best])) best = last;
+    }
+    if (contacts[best].firm > 0 || !blocked)
+      decided.emplace_back(contacts[best].island, contacts[best].material);
+    first = last;
+  }
+  return decided;
+}
+
+}  // namespace
+
+IslandReport remove_islands(Edits& edits, std::int64_t most) {
+  const Pieces p = pieces(edits, most + 1);
+  std::vector<std::uint8_t> small(p.label.size());
+  for (std::size_t i = 0; i < small.size(); ++i) small[i] = p.size[i] <= most;
+  std::vector<GlobalId> kept;  // labels of pieces with a locked cell
+  for (LocalId c = 0; c < edits.mesh.size(); ++c)
+    if (edits.locked(c) && small[at(p.of[at(c)])]) kept.push_back(p.label[at(p.of[at(c)])]);
+  kept = edits.comm().concatenate(kept);
+  std::sort(kept.begin(), kept.end());
+  for (std::size_t i = 0; i < small.size(); ++i)
+    if (small[i] && std::binary_search(kept.begin(), kept.end(), p.label[i])) small[i] = 0;
+
+  std::vector<Contact> contacts, shared;
+  find_contacts(edits, p, small, contacts, shared);
+  merge(shared);
+  shared = edits.comm().concatenate(shared);
+  contacts.insert(contacts.end(), shared.begin(), shared.end());
+  merge(contacts);
+  const auto decided = decide(contacts);
+
+  IslandReport report;
+  for (LocalId c = 0; c < edits.mesh.size(); ++c) {
+    const std::size_t piece = at(p.of[at(c)]);
+    if (!small[piece] || !edits.owned(c)) continue;
+    const auto found = std::lower_bound(decided.begin(), decided.end(),
+                                        std::pair(p.label[piece], std::numeric_limits<std::int32_t>::min()));
+    if (found == decided.end() || found->first != p.label[piece]) continue;
+    edits.change_owned(c, found->second);
+    ++report.cells;
+    report.islands += edits.mesh.hex_id[at(c)] == p.label[piece];
+  }
+  edits.share();
+  report.cells = edits.comm().sum(report.cells);
+  report.islands = edits.comm().sum(report.islands);
+  return report;
+}
+
+// The material that most of the faces of a protruding cell look at; kNone for a cell that stays.
+std::int32_t Protrusions::better(LocalId cell) const {
+  const std::int32_t own = edits_.material(cell);
+  std::array<std::int32_t, 6> other;
+  std::size_t count = 0;
+  int foreign = 0;
+  for (const LocalId n : edits_.neighbours[at(cell)]) {
+    if (n == kNone)
+      foreign += at_box_;
+    else if (edits_.material(n) != own)
+      other[count++] = edits_.material(n);
+  }
+  foreign += static_cast<int>(count);
+  if (foreign < kForeignFaces || count == 0 || edits_.frozen(cell) || edits_.locked(cell)) return kNone;
+  std::tuple<int, double, std::int32_t> best{0, 0, 0};  // faces, fraction, smaller material
+  for (std::size_t i = 0; i < count; ++i) {
+    int faces = 0;
+    for (std::size_t j = 0; j < count; ++j) faces += other[j] == other[i];
+    best = std::max(best, std::tuple(faces, fraction_of(edits_.fractions, cell, other[i]), -other[i]));
+  }
+  return -std::get<2>(best);
+}
+
+// Adds the owned cells at changes that were not looked at yet.
+void Protrusions::collect() {
+  if (first_) {
+    for (LocalId c = 0; c < edits_.mesh.size(); ++c)
+      if (edits_.owned(c)) examine_.push_back(c);
+    claim_.assign(edits_.mesh.hexes.size(), kNoClaim);
+    flag_.assign(edits_.mesh.hexes.size(), 0);
+    seen_ = edits_.changed().size();
+    first_ = false;
+    return;
+  }
+  for (; seen_ < edits_.changed().size(); ++seen_) {
+    const LocalId changed = edits_.changed()[seen_];
+    if (edits_.owned(changed)) examine_.push_back(changed);
+    for (const LocalId n : edits_.neighbours[at(changed)])
+      if (n != kNone && edits_.owned(n)) examine_.push_back(n);
+  }
+  std::sort(examine_.begin(), examine_.end());
+  examine_.erase(std::unique(examine_.begin(), examine_.end()), examine_.end());
+}
+
+// Whether no candidate around the cell is cheaper.
+bool Protrusions::wins(LocalId cell) const {
+  const auto key = [this](LocalId c) {
+    return std::tuple(claim_[at(c)], edits_.lot(c), edits_.mesh.hex_id[at(c)]);
+  };
+  for (const LocalId n : edits_.mesh.hexes[at(cell)])
+    for (const std::int32_t item : edits_.around[n]) {
+      const LocalId other = item / 8;
+      if (other != cell && claim_[at(other)] <= claim_[at(cell)] && key(other) < key(cell)) return false;
+    }
+  return true;
+}
+
+std::int64_t Protrusions::pass() {
+  std::vector<std::pair<LocalId, std::int32_t>> candidates;
+  for (const LocalId c : examine_)
+    if (const std::int32_t to = better(c); to != kNone) {
+      candidates.emplace_back(c, to);
+      claim_[at(c)] = edits_.loss(c, to);
+      flag_[at(c)] = 1;
+    }
+  claimed_ghosts_.clear();
+  edits_.mesh.hex_exchange.copy_changed(std::span<double>(claim_), std::span<std::uint8_t>(flag_),
+                                        [this](LocalId ghost) { claimed_ghosts_.push_back(ghost); });
+  std::vector<std::pair<LocalId, std::int32_t>> winners;
+  examine_.clear();
+  for (const auto& candidate : candidates) {
+    if (wins(candidate.first))
+      winners.push_back(candidate);
+    else
+      examine_.push_back(candidate.first);
+  }
+  for (const auto& [c, to] : candidates) {
+    claim_[at(c)] = kNoClaim;
+    flag_[at(c)] = 0;
+  }
+  for (const LocalId c : claimed_ghosts_) claim_[at(c)] = kNoClaim;
+  for (const auto& [c, to] : winners) edits_.change_owned(c, to);
+  edits_.share();
+  return edits_.comm().sum(static_cast<std::int64_t>(winners.size()));
+}
+
+std::int64_t Protrusions::remove() {
+  std::int64_t changes = 0;
+  for (;;) {
+    collect();
+    const std::int64_t now = pass();
+    changes += now;
+    if (now == 0) return changes;
+  }
+}
+
+}  // namespace sculpt

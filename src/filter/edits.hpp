@@ -1,0 +1,127 @@
+#pragma once
+// What all operations of the filter share: the materials of the cells, the price of changing one, and the
+// record of what was changed. Local unless said otherwise.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sculpt/filter/filter.hpp"
+#include "sculpt/mesh/adjacency.hpp"
+#include "sculpt/mesh/hex_mesh.hpp"
+
+namespace sculpt {
+
+class Edits {
+ public:
+  static constexpr int kFreezeAfter = 4;  // changes of one cell; then only the last resort may change it
+
+  Edits(HexMesh& of, const Fractions& their_fractions, const FaceNeighbours& their_neighbours,
+        const NodeHexes& around_nodes)
+      : mesh(of),
+        fractions(their_fractions),
+        neighbours(their_neighbours),
+        around(around_nodes),
+        changes_(of.hexes.size(), 0),
+        unshared_(of.hexes.size(), 0) {}
+
+  HexMesh& mesh;
+  const Fractions& fractions;
+  const FaceNeighbours& neighbours;
+  const NodeHexes& around;
+
+  [[nodiscard]] const Comm& comm() const { return mesh.hex_exchange.comm(); }
+  [[nodiscard]] std::int32_t material(LocalId cell) const { return mesh.material[at(cell)]; }
+  [[nodiscard]] bool owned(LocalId cell) const { return mesh.layer[at(cell)] == 0; }
+  [[nodiscard]] bool frozen(LocalId cell) const { return changes_[at(cell)] >= kFreezeAfter; }
+  [[nodiscard]] bool locked(LocalId cell) const { return !locked_.empty() && locked_[at(cell)] != 0; }
+
+  // Loss of fraction when a cell goes to a material, and a price for having changed before that grows as 2^n
+  // - 1 (the report, section 2.7.1: changes must stick).
+  [[nodiscard]] double loss(LocalId cell, std::int32_t to) const;
+  // Without any order that spreads through the grid: ties between cells are broken by this, then by id.
+  [[nodiscard]] std::uint64_t lot(LocalId cell) const;
+
+  // Every rank that sees the cell makes the same change.
+  void change(LocalId cell, std::int32_t to);
+  // By the owner alone; the others learn of it from share().
+  void change_owned(LocalId cell, std::int32_t to);
+  void share();  // collective
+
+  // Cells in the order of their changes, ghosts included; a cell may occur several times.
+  [[nodiscard]] const std::vector<LocalId>& changed() const { return changed_; }
+
+  // Collective. Locks one cell of every material, such that none can vanish: the cell in the largest
+  // connected piece of the material with most of it around. Materials that have no cell get the one with most
+  // of them.
+  void lock_materials(std::int64_t materials);
+
+ private:
+  std::vector<std::uint8_t> changes_;   // per cell
+  std::vector<std::uint8_t> unshared_;  // per cell: changed by its owner since the last share()
+  std::vector<std::uint8_t> locked_;    // per cell; empty: none
+  std::vector<LocalId> changed_, pending_;
+};
+
+// Face-connected pieces of equal material. Collective.
+struct Pieces {
+  std::vector<std::int32_t> of;      // per local cell: index into the next ones
+  std::vector<GlobalId> label;       // smallest cell id of the piece
+  std::vector<std::int64_t> size;    // cells on all ranks, right up to `most`, more is not told apart
+  std::vector<std::uint8_t> shared;  // 1: other ranks may hold a part of it
+};
+[[nodiscard]] Pieces pieces(const Edits& edits, std::int64_t most);
+
+struct IslandReport {
+  std::int64_t islands = 0, cells = 0;  // removed, all ranks
+};
+// Collective. Every piece of at most `most` cells takes the material of the larger piece that it has most
+// faces in common with.
+IslandReport remove_islands(Edits& edits, std::int64_t most);
+
+// Makes every node manifold. Looks at all nodes first and from then on at those around changed cells only.
+class ManifoldRepair {
+ public:
+  explicit ManifoldRepair(Edits& edits);
+  ~ManifoldRepair();
+  ManifoldRepair(const ManifoldRepair&) = delete;
+  ManifoldRepair& operator=(const ManifoldRepair&) = delete;
+  // Collective. Returns the number of changes on all ranks. Always ends: after a fixed number of passes what
+  // is left is settled by a rule that only ever lowers material indices.
+  std::int64_t run(FilterReport& report);
+  // Collective. Removes reversals (the report, section 2.7.3) as far as that leaves all nodes manifold: two
+  // faces of one interface that meet at a node and look in opposite directions. Returns the number of
+  // changes.
+  std::int64_t remove_reversals(FilterReport& report);
+
+ private:
+  class Work;
+  std::unique_ptr<Work> work_;
+};
+
+// Reassigns cells with at least four faces towards other materials (protrusions and isthmuses), until there
+// are none.
+class Protrusions {
+ public:
+  // at_box: faces on the box count as faces towards other materials.
+  Protrusions(Edits& edits, bool at_box) : edits_(edits), at_box_(at_box) {}
+  // Collective. Returns the number of changes on all ranks.
+  std::int64_t remove();
+
+ private:
+  [[nodiscard]] std::int32_t better(LocalId cell) const;
+  void collect();
+  std::int64_t pass();
+  [[nodiscard]] bool wins(LocalId cell) const;
+
+  Edits& edits_;
+  bool at_box_;
+  bool first_ = true;
+  std::size_t seen_ = 0;            // changes of the cells looked at so far
+  std::vector<LocalId> examine_;    // owned cells to look at
+  std::vector<double> claim_;       // per cell: price of its candidate change in this pass
+  std::vector<std::uint8_t> flag_;  // per cell, scratch
+  std::vector<LocalId> claimed_ghosts_;
+};
+
+}  // namespace sculpt

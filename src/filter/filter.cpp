@@ -1,0 +1,61 @@
+#include "sculpt/filter/filter.hpp"
+
+#include <fmt/core.h>
+
+#include "filter/edits.hpp"
+
+namespace sculpt {
+namespace {
+
+// micro_shave. Returns the number of cells changed on all ranks.
+std::int64_t shave_boundary(Edits& edits, std::int32_t to) {
+  std::vector<LocalId> isolated;
+  for (LocalId c = 0; c < edits.mesh.size(); ++c) {
+    if (!edits.owned(c) || edits.locked(c) || edits.material(c) == to) continue;
+    bool on_box = false, alone = true, has_neighbour = false;
+    for (const LocalId n : edits.neighbours[at(c)]) {
+      on_box = on_box || n == kNone;
+      if (n == kNone) continue;
+      has_neighbour = true;
+      alone = alone && edits.material(n) != edits.material(c);
+    }
+    if (on_box && alone && has_neighbour) isolated.push_back(c);
+  }
+  for (const LocalId c : isolated) edits.change_owned(c, to);
+  edits.share();
+  return edits.comm().sum(static_cast<std::int64_t>(isolated.size()));
+}
+
+}  // namespace
+
+FilterReport filter_materials(HexMesh& mesh, const Fractions& fractions, const FaceNeighbours& neighbours,
+                              const NodeHexes& around, const FilterOptions& options,
+                              const std::function<void(const std::string&)>& said) {
+  Edits edits(mesh, fractions, neighbours, around);
+  FilterReport report;
+  if (options.keep_materials > 0) edits.lock_materials(options.keep_materials);
+  if (options.shave_to) report.shaved = shave_boundary(edits, *options.shave_to);
+  ManifoldRepair repair(edits);
+  Protrusions protrusions(edits, options.defeature_box);
+  std::int64_t changes = 1;
+  while (options.defeature && changes > 0 && report.rounds < options.defeature_rounds) {
+    const IslandReport islands = remove_islands(edits, options.min_vol_cells);
+    const std::int64_t protruding = protrusions.remove(), repaired = repair.run(report);
+    std::int64_t reversed = 0;
+    changes = islands.cells + protruding + repaired;
+    if (options.reversals && changes == 0) changes = reversed = repair.remove_reversals(report);
+    ++report.rounds;
+    report.islands += islands.islands;
+    report.island_cells += islands.cells;
+    report.protrusions += protruding;
+    if (said)
+      said(fmt::format("defeature iter {}: {} islands ({} cells), {} protrusions, {} cells for manifolds",
+                       report.rounds, islands.islands, islands.cells, protruding, repaired + reversed));
+  }
+  report.settled = !options.defeature || changes == 0;
+  repair.run(report);
+  if (options.reversals && (!options.defeature || !report.settled)) repair.remove_reversals(report);
+  return report;
+}
+
+}  // namespace sculpt

@@ -1,0 +1,238 @@
+#include "pipeline/classify.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/thickening.hpp"
+#include "sculpt/filter/filter.hpp"
+#include "sculpt/filter/thicken.hpp"
+#include "sculpt/vfrac/fractions.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double kUnits = 1073741824.0;  // 2^30: fractions are summed as integers, in any order
+constexpr int kSeparations = 5;  // rounds of separating and filtering; one is enough but for odd places
+
+std::int32_t material_with_id(const MaterialTable& materials, std::int64_t id, const Deck& deck) {
+  const auto found = std::find(materials.block_id.begin(), materials.block_id.end(), id);
+  if (found != materials.block_id.end()) return static_cast<std::int32_t>(found - materials.block_id.begin());
+  std::string known;
+  for (std::size_t m = 0; m < std::min<std::size_t>(materials.block_id.size(), 10); ++m)
+    known += fmt::format(" {}", materials.block_id[m]);
+  throw Error(fmt::format(
+      "option 'thicken_material' ({}): no material with id {} in the input; it has {} material{}:{}{}",
+      deck.given_options.place("thicken_material"), id, materials.block_id.size(),
+      materials.block_id.size() == 1 ? "" : "s", known, materials.block_id.size() > 10 ? " ..." : ""));
+}
+
+FilterOptions filter_options(const Deck& deck, const MaterialTable& materials) {
+  FilterOptions o;
+  const bool first_is_void = materials.void_material == 0 && materials.block_id.size() > 1;
+  if (deck.micro_shave) o.shave_to = first_is_void ? 1 : 0;
+  o.defeature = deck.defeature == kDefeatureFilter || deck.defeature == kDefeatureAll;
+  o.min_vol_cells = deck.min_vol_cells;
+  o.defeature_box = deck.defeature_bbox;
+  o.defeature_rounds = deck.defeature_iters;
+  o.reversals = deck.resolve_reversals;
+  if (deck.keep_materials) o.keep_materials = static_cast<std::int64_t>(materials.block_id.size());
+  return o;
+}
+
+void report_filter(const Deck& deck, const FilterReport& report, const Log& log) {
+  if (deck.micro_shave)
+    log.line("  micro_shave: {} isolated cells at the boundary reassigned", report.shaved);
+  log.line("  {} non-manifold nodes, {} cells reassigned in {} passes", report.bad_nodes,
+           report.manifold_cells, report.manifold_passes);
+  if (deck.resolve_reversals) log.line("  {} nodes with reversals", report.reversals);
+  if (report.forced_nodes > 0)
+    log.line("  WARNING: {} nodes were settled by merging their materials", report.forced_nodes);
+  if (!report.settled)
+    log.line("  WARNING: defeaturing did not settle in {} iterations; a larger defeature_iters lets it go on",
+             report.rounds);
+}
+
+// The table's void, made when there is none.
+std::int32_t void_of(MaterialTable& materials, const Deck& deck) {
+  if (!materials.void_material) {
+    const std::int64_t largest = materials.block_id.back();
+    materials.void_material = static_cast<std::int32_t>(materials.block_id.size());
+    materials.block_id.push_back(deck.void_mat > 0 ? deck.void_mat : largest + 1);
+  }
+  return *materials.void_material;
+}
+
+// Owned cells of each material, all ranks.
+std::vector<std::int64_t> count_cells(const Comm& comm, const HexMesh& cells, std::size_t materials) {
+  std::vector<std::int64_t> count(materials, 0);
+  for (std::size_t c = 0; c < cells.hexes.size(); ++c)
+    if (cells.layer[c] == 0) ++count[static_cast<std::size_t>(cells.material[c])];
+  comm.sum(count);
+  return count;
+}
+
+// Says which materials of the input have no cell left.
+void report_lost(const Comm& comm, const HexMesh& cells, const std::vector<std::int64_t>& before,
+                 const MaterialTable& materials, const Log& log) {
+  const std::vector<std::int64_t> after = count_cells(comm, cells, before.size());
+  std::string ids;
+  std::int64_t lost = 0, lost_cells = 0;
+  for (std::size_t m = 0; m < before.size(); ++m) {
+    if (before[m] == 0 || after[m] > 0) continue;
+    if (lost++ < 10) ids += fmt::format(" {}", materials.block_id[m]);
+    lost_cells += before[m];
+  }
+  if (lost > 0)
+    log.line("  {} of {} materials ({} cells) have no cell left:{}{}", lost, before.size(), lost_cells, ids,
+             lost > 10 ? " ..." : "");
+}
+
+// Volume of each material by its fractions, in cells, all ranks.
+std::vector<double> volumes(const Comm& comm, const HexMesh& cells, const Fractions& fractions,
+                            std::size_t materials) {
+  std::vector<std::int64_t> units(materials, 0);
+  for (std::size_t c = 0; c < cells.hexes.size(); ++c) {
+    if (cells.layer[c] != 0) continue;
+    for (auto e = static_cast<std::size_t>(fractions.offset[c]);
+         e < static_cast<std::size_t>(fractions.offset[c + 1]); ++e)
+      units[at(fractions.material[e])] += std::llround(kUnits * fractions.value[e]);
+  }
+  comm.sum(units);
+  std::vector<double> volume;
+  for (const std::int64_t u : units) volume.push_back(static_cast<double>(u) / kUnits);
+  return volume;
+}
+
+// Faces of owned cells towards other materials, per material, all ranks.
+std::vector<double> areas(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
+                          std::size_t materials) {
+  std::vector<std::int64_t> faces(materials, 0);
+  for (std::size_t c = 0; c < cells.hexes.size(); ++c) {
+    if (cells.layer[c] != 0) continue;
+    for (const LocalId n : neighbours[c])
+      faces[at(cells.material[c])] += n != kNone && cells.material[at(n)] != cells.material[c];
+  }
+  comm.sum(faces);
+  return {faces.begin(), faces.end()};
+}
+
+// The steps from fractions to materials, which may be tried with several thickening values.
+class Classifier {
+ public:
+  Classifier(const Comm& comm, const Deck& deck, HexMesh& cells, Fractions& fractions,
+             MaterialTable& materials, const FaceNeighbours& neighbours, const NodeHexes& around,
+             const Log& log)
+      : comm_(comm),
+        deck_(deck),
+        cells_(cells),
+        fractions_(fractions),
+        materials_(materials),
+        neighbours_(neighbours),
+        around_(around),
+        log_(log) {}
+
+  // Thickening by the lines of the deck, after its automatic values were found. Answers the volumes that the
+  // materials with automatic lines should have, below 0 for the others.
+  std::vector<double> run(const MeshVolumes& mesh_volumes) {
+    std::vector<Thickening> lines;
+    bool search = false;
+    for (const MaterialValue& t : deck_.thicken_material) {
+      const bool automatic = t.value == MaterialValue::kAuto;
+      lines.push_back({material_with_id(materials_, t.id, deck_), automatic ? 0 : t.value, automatic});
+      search = search || automatic;
+    }
+    std::vector<double> wanted(materials_.block_id.size(), -1);
+    if (search) {
+      const std::vector<double> input = find(lines, mesh_volumes);
+      const double cell = cells_.cell_size.x * cells_.cell_size.y * cells_.cell_size.z;
+      for (const Thickening& line : lines)
+        if (line.automatic) wanted[at(line.material)] = cell * input[at(line.material)];
+    } else {
+      thicken_and_filter(lines, log_);
+    }
+    wanted.resize(materials_.block_id.size(), -1);  // thicken_void may have added the void
+    return wanted;
+  }
+
+ private:
+  // Finds the automatic values, leaves the cells filtered with them, and answers the volumes of the input in
+  // cells.
+  std::vector<double> find(std::vector<Thickening>& lines, const MeshVolumes& mesh_volumes) {
+    const std::size_t count = materials_.block_id.size();
+    const std::vector<double> target = volumes(comm_, cells_, fractions_, count);
+    const Fractions input = fractions_;
+    const Log quiet(false);
+    const ThickeningResult found = find_thickening(lines, target, [&](const std::vector<Thickening>& trial) {
+      fractions_ = input;
+      assign_materials(cells_, fractions_, neighbours_);
+      thicken_and_filter(trial, quiet);
+      return ThickeningTrial{mesh_volumes(), areas(comm_, cells_, neighbours_, count)};
+    });
+    for (const Thickening& line : lines)
+      if (line.automatic)
+        log_.line("  thicken_material = {} {:.6f}  (found by auto)", materials_.block_id[at(line.material)],
+                  line.value);
+    log_.line("  volumes reached within {:.3f} % in {} trials", 100 * found.error, found.trials);
+    report_filter(deck_, report_, log_);
+    return target;
+  }
+
+  void thicken_and_filter(const std::vector<Thickening>& lines, const Log& log) {
+    for (const Thickening& line : lines)
+      if (line.value > 0) thicken(cells_, fractions_, neighbours_, around_, line.material, line.value);
+    filter(log);
+    if (deck_.thicken_void <= 0) return;
+    const std::int32_t empty = void_of(materials_, deck_);
+    for (int i = 0; i < kSeparations; ++i) {
+      const std::int64_t emptied =
+          separate_by_void(cells_, fractions_, around_, empty, deck_.thicken_void > 0.5);
+      log.line("  thicken_void: {} cells between materials became void", emptied);
+      if (emptied == 0) break;
+      filter(log);
+    }
+  }
+
+  void filter(const Log& log) {
+    report_ = filter_materials(cells_, fractions_, neighbours_, around_, filter_options(deck_, materials_),
+                               [&](const std::string& line) { log.line("  {}", line); });
+    report_filter(deck_, report_, log);
+    follow_assignment(fractions_, cells_.material);
+  }
+
+  const Comm& comm_;
+  const Deck& deck_;
+  HexMesh& cells_;
+  Fractions& fractions_;
+  MaterialTable& materials_;
+  const FaceNeighbours& neighbours_;
+  const NodeHexes& around_;
+  const Log& log_;
+  FilterReport report_;
+};
+
+}  // namespace
+
+std::vector<double> classify(const Comm& comm, const Deck& deck, HexMesh& cells, Fractions& fractions,
+                             MaterialTable& materials, const FaceNeighbours& neighbours,
+                             std::optional<NodeHexes>& around, const MeshVolumes& mesh_volumes,
+                             const Log& log, Stages& stages) {
+  log.line("(2/9) classifying materials...");
+  assign_materials(cells, fractions, neighbours);
+  const std::vector<std::int64_t> input_cells = count_cells(comm, cells, materials.block_id.size());
+  stages.end("classify materials");
+  log.line("(3/9) resolving non-manifolds...");
+  std::vector<double> wanted(materials.block_id.size(), -1);
+  if (deck.stair == kStairFast) return wanted;
+  around.emplace(cells);
+  wanted = Classifier(comm, deck, cells, fractions, materials, neighbours, *around, log).run(mesh_volumes);
+  report_lost(comm, cells, input_cells, materials, log);
+  collectively(comm, "resolving non-manifolds", [&] {
+    check(interfaces_are_manifold(cells, neighbours, *around), "a material interface is not manifold");
+  });
+  stages.end("resolve non-manifolds");
+  return wanted;
+}
+
+}  // namespace sculpt

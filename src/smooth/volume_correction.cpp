@@ -1,0 +1,254 @@
+#include "sculpt/smooth/volume_correction.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "smooth/quality.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double kUnits = 1073741824.0;  // 2^30 per volume of a cell: sums of integers do not depend on ranks
+constexpr int kRounds = 4, kReturns = 10;
+constexpr double kCloseEnough = 2e-4;  // relative error of volume
+constexpr double kFarthest = 0.1;      // way of a node per round, in cells
+constexpr double kLeastEdge = 0.1;     // in cells; shorter edges may not become shorter
+
+// The fourth corner of the face of a hex with a corner and its k-th and next neighbours (kCornerNeighbours).
+constexpr std::array<std::array<std::size_t, 3>, 8> kOpposite = [] {
+  std::array<std::array<std::size_t, 3>, 8> opposite{};
+  for (std::size_t c = 0; c < 8; ++c)
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const auto& face : kFaces) {
+        std::size_t sum = 0;
+        int found = 0;
+        for (const int v : face) {
+          const auto corner = static_cast<std::size_t>(v);
+          sum += corner;
+          found += corner == c || v == kCornerNeighbours[c][k] || v == kCornerNeighbours[c][(k + 1) % 3];
+        }
+        if (found == 3)
+          opposite[c][k] = sum - c - static_cast<std::size_t>(kCornerNeighbours[c][k]) -
+                           static_cast<std::size_t>(kCornerNeighbours[c][(k + 1) % 3]);
+      }
+  return opposite;
+}();
+
+// Derivative of the volume of a trilinear hex by the position of a corner: the integral of its shape function
+// over the three bilinear faces there, times their normals.
+Vec3 volume_gradient(const HexCorners& p, std::size_t c) {
+  Vec3 sum;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 &a = p[static_cast<std::size_t>(kCornerNeighbours[c][(k + 1) % 3])],
+               &b = p[static_cast<std::size_t>(kCornerNeighbours[c][k])], &o = p[kOpposite[c][k]];
+    const Vec3 u0 = a - p[c], u1 = o - b, v0 = b - p[c], v1 = o - a;
+    sum += (1.0 / 36) * (4 * cross(u0, v0) + 2 * cross(u0, v1) + 2 * cross(u1, v0) + cross(u1, v1));
+  }
+  return sum;
+}
+
+class Corrector {
+ public:
+  Corrector(HexMesh& mesh, std::span<const LocalId> interface, std::span<const double> wanted,
+            double least_quality)
+      : mesh_(mesh),
+        interface_(interface),
+        wanted_(wanted),
+        least_quality_(least_quality),
+        cell_(mesh.cell_size.x * mesh.cell_size.y * mesh.cell_size.z) {
+    place_of_.assign(wanted.size(), kNone);
+    for (std::size_t m = 0; m < wanted.size(); ++m)
+      if (wanted[m] >= 0) place_of_[m] = count_++;
+    find_hexes();
+  }
+
+  VolumeCorrection run() {
+    VolumeCorrection result;
+    const std::vector<Vec3> start = mesh_.position;
+    for (;; ++result.rounds) {
+      const std::vector<double> missing = missing_volumes();
+      result.error = 0;
+      for (std::size_t m = 0; m < wanted_.size(); ++m)
+        if (wanted_[m] > 0)
+          result.error = std::max(result.error, std::fabs(missing[at(place_of_[m])]) * cell_ / wanted_[m]);
+      if (result.error < kCloseEnough || result.rounds == kRounds) break;
+      move(missing);
+    }
+    for (std::size_t n = 0; n < start.size(); ++n) {
+      const Vec3 way = in_cells(mesh_.position[n] - start[n]);
+      result.farthest = std::max(result.farthest, norm(way));
+    }
+    result.farthest = comm().max(result.farthest);
+    return result;
+  }
+
+ private:
+  struct Gradient {  // of the volume of one material, at one node, in cells
+    LocalId place;
+    Vec3 by;
+  };
+
+  [[nodiscard]] const Comm& comm() const { return mesh_.node_exchange.comm(); }
+  [[nodiscard]] Vec3 in_cells(const Vec3& v) const {
+    return {v.x / mesh_.cell_size.x, v.y / mesh_.cell_size.y, v.z / mesh_.cell_size.z};
+  }
+
+  // Hexes with an interface node, and the volume of the others, which does not change.
+  void find_hexes() {
+    far_units_.assign(at(count_), 0);
+    for (LocalId h = 0; h < mesh_.size(); ++h) {
+      bool near = false;
+      for (const LocalId n : mesh_.hexes[at(h)]) near = near || interface_[at(n)] != kNone;
+      if (near)
+        near_.push_back(h);
+      else
+        add_volume(h, far_units_);
+    }
+  }
+  void add_volume(LocalId h, std::vector<std::int64_t>& units) const {
+    const LocalId place = place_of_[at(mesh_.material[at(h)])];
+    if (mesh_.layer[at(h)] == 0 && place != kNone)
+      units[at(place)] += std::llround(kUnits * hex_volume(mesh_.corners(h)) / cell_);
+  }
+
+  // In cells, of the materials with a wanted volume.
+  std::vector<double> missing_volumes() const {
+    std::vector<std::int64_t> units = far_units_;
+    for (const LocalId h : near_) add_volume(h, units);
+    comm().sum(units);
+    std::vector<double> missing(at(count_));
+    for (std::size_t m = 0; m < wanted_.size(); ++m)
+      if (place_of_[m] != kNone)
+        missing[at(place_of_[m])] =
+            wanted_[m] / cell_ - static_cast<double>(units[at(place_of_[m])]) / kUnits;
+    return missing;
+  }
+
+  // Gradients at the interface nodes of this rank's mesh, right at owned ones.
+  std::vector<std::vector<Gradient>> gradients() {
+    std::vector<std::vector<Gradient>> of(mesh_.position.size());
+    for (const LocalId h : near_) {
+      const LocalId place = place_of_[at(mesh_.material[at(h)])];
+      if (place == kNone) continue;
+      HexCorners p = mesh_.corners(h);
+      const Vec3 origin = p[0];
+      for (Vec3& corner : p) corner = in_cells(corner - origin);
+      for (std::size_t c = 0; c < 8; ++c) {
+        const LocalId n = mesh_.hexes[at(h)][c];
+        if (interface_[at(n)] == kNone) continue;
+        const Vec3 by = volume_gradient(p, c);
+        auto& list = of[at(n)];
+        const auto found =
+            std::find_if(list.begin(), list.end(), [&](const Gradient& g) { return g.place == place; });
+        if (found == list.end())
+          list.push_back({place, by});
+        else
+          found->by += by;
+      }
+    }
+    for (std::size_t n = 0; n < of.size(); ++n)
+      for (Gradient& g : of[n]) g.by = held_on_box(g.by, mesh_.box_sides[n]);
+    return of;
+  }
+
+  static double largest_norm(const std::vector<Gradient>& list) {
+    double most = 0;
+    for (const Gradient& g : list) most = std::max(most, norm(g.by));
+    return most;
+  }
+
+  void move(const std::vector<double>& missing) {
+    const auto of = gradients();
+    const std::vector<double> pressure = pressures(of, missing);
+    std::vector<Vec3> before = mesh_.position;
+    for (std::size_t n = 0; n < of.size(); ++n) {
+      if (of[n].empty() || mesh_.node_owner[n] != comm().rank()) continue;
+      const double scale = largest_norm(of[n]);
+      if (scale < 1e-6) continue;
+      Vec3 way;
+      for (const Gradient& g : of[n]) way += (pressure[at(g.place)] / scale) * g.by;
+      const double length = norm(way);
+      if (length > kFarthest) way = (kFarthest / length) * way;
+      for (std::size_t d = 0; d < 3; ++d)
+        if (way[d] != 0) mesh_.position[n][d] += way[d] * mesh_.cell_size[d];
+    }
+    mesh_.node_exchange.copy_to_ghosts(mesh_.position);
+    take_back_harm(before);
+  }
+
+  // Solves the symmetric system of the first-order changes by Gauss-Seidel; the same on every rank.
+  std::vector<double> pressures(const std::vector<std::vector<Gradient>>& of,
+                                const std::vector<double>& missing) {
+    const std::size_t n = at(count_);
+    std::vector<std::int64_t> units(n * n, 0);
+    for (std::size_t node = 0; node < of.size(); ++node) {
+      if (of[node].empty() || mesh_.node_owner[node] != comm().rank()) continue;
+      const double scale = largest_norm(of[node]);
+      if (scale < 1e-6) continue;
+      for (const Gradient& a : of[node])
+        for (const Gradient& b : of[node])
+          units[at(a.place) * n + at(b.place)] += std::llround(kUnits * dot(a.by, b.by) / scale);
+    }
+    comm().sum(units);
+    std::vector<double> pressure(n, 0);
+    for (int i = 0; i < 50; ++i)
+      for (std::size_t a = 0; a < n; ++a) {
+        double rest = missing[a];
+        for (std::size_t b = 0; b < n; ++b)
+          if (b != a) rest -= static_cast<double>(units[a * n + b]) / kUnits * pressure[b];
+        const double diagonal = static_cast<double>(units[a * n + a]) / kUnits;
+        pressure[a] = diagonal > 1e-6 ? rest / diagonal : 0;
+      }
+    return pressure;
+  }
+
+  // Nodes of hexes that became too poor go back, until there are no such hexes.
+  void take_back_harm(const std::vector<Vec3>& before) {
+    const std::vector<HexQuality> was = measure(before);
+    std::vector<std::uint8_t> back(mesh_.position.size(), 0);
+    for (int i = 0; i < kReturns; ++i) {
+      const std::vector<HexQuality> is = measure(mesh_.position);
+      std::fill(back.begin(), back.end(), std::uint8_t{0});
+      std::int64_t harmed = 0;
+      for (std::size_t k = 0; k < near_.size(); ++k) {
+        const double quality = is[k / 8].scaled_jacobian[k % 8], edge = is[k / 8].shortest_edge[k % 8];
+        const double least = std::min(was[k / 8].scaled_jacobian[k % 8], least_quality_);
+        const double least_edge = std::min(was[k / 8].shortest_edge[k % 8], kLeastEdge * std::cbrt(cell_));
+        if (quality >= least && edge >= least_edge) continue;
+        harmed += mesh_.layer[at(near_[k])] == 0;
+        for (const LocalId n : mesh_.hexes[at(near_[k])]) back[at(n)] = 1;
+      }
+      if (comm().sum(harmed) == 0) return;
+      for (std::size_t n = 0; n < back.size(); ++n)
+        if (back[n]) mesh_.position[n] = before[n];
+      mesh_.node_exchange.copy_to_ghosts(mesh_.position);
+    }
+    mesh_.position = before;
+  }
+  std::vector<HexQuality> measure(const std::vector<Vec3>& position) const {
+    std::vector<HexQuality> quality;
+    for (std::size_t k = 0; k < near_.size(); k += 8)
+      quality.push_back(
+          quality_of(mesh_.hexes, position, {near_.data() + k, std::min<std::size_t>(8, near_.size() - k)}));
+    return quality;
+  }
+
+  HexMesh& mesh_;
+  std::span<const LocalId> interface_;
+  std::span<const double> wanted_;
+  double least_quality_, cell_;
+  std::vector<LocalId> place_of_;  // per material: its place among those with a wanted volume
+  LocalId count_ = 0;
+  std::vector<LocalId> near_;            // hexes with an interface node
+  std::vector<std::int64_t> far_units_;  // volume of the other ones of this rank, per place
+};
+
+}  // namespace
+
+VolumeCorrection correct_volumes(HexMesh& mesh, std::span<const LocalId> interface,
+                                 std::span<const double> wanted, double least_quality) {
+  return Corrector(mesh, interface, wanted, least_quality).run();
+}
+
+}  // namespace sculpt

@@ -119,27 +119,30 @@ IslandReport remove_islands(Edits& edits, std::int64_t most) {
   return report;
 }
 
-// The material that most of the faces of a protruding cell look at; kNone for a cell that stays.
+// The material that a protruding cell goes to: the one with most faces at it, if those are more than it has
+// of its own material, so that every change makes the interfaces smaller; kNone for a cell that stays.
 std::int32_t Protrusions::better(LocalId cell) const {
   const std::int32_t own = edits_.material(cell);
   std::array<std::int32_t, 6> other;
   std::size_t count = 0;
-  int foreign = 0;
+  int foreign = 0, like = 0;
   for (const LocalId n : edits_.neighbours[at(cell)]) {
     if (n == kNone)
       foreign += at_box_;
-    else if (edits_.material(n) != own)
+    else if (edits_.material(n) == own)
+      ++like;
+    else
       other[count++] = edits_.material(n);
   }
   foreign += static_cast<int>(count);
-  if (foreign < kForeignFaces || count == 0 || edits_.frozen(cell) || edits_.locked(cell)) return kNone;
+  if (foreign < kForeignFaces || count == 0 || edits_.locked(cell)) return kNone;
   std::tuple<int, double, std::int32_t> best{0, 0, 0};  // faces, fraction, smaller material
   for (std::size_t i = 0; i < count; ++i) {
     int faces = 0;
     for (std::size_t j = 0; j < count; ++j) faces += other[j] == other[i];
     best = std::max(best, std::tuple(faces, fraction_of(edits_.fractions, cell, other[i]), -other[i]));
   }
-  return -std::get<2>(best);
+  return std::get<0>(best) > like ? -std::get<2>(best) : kNone;
 }
 
 // Adds the owned cells at changes that were not looked at yet.

@@ -241,7 +241,8 @@ class ManifoldRepair::Work {
         if (std::count(material.begin(), material.end(), m) >
             std::count(material.begin(), material.end(), most))
           most = m;
-      return all_to(ring, material, most);
+      Proposal p = all_to(ring, material, most);
+      return p.count > 0 && settles(ring, material, p) ? p : around_locked(ring, material, present, p);
     }
     return best;
   }
@@ -260,6 +261,40 @@ class ManifoldRepair::Work {
           if (singles[a].flip.slot != singles[b].flip.slot && singles[a].flip.slot != singles[c].flip.slot &&
               singles[b].flip.slot != singles[c].flip.slot)
             consider(ring, material, std::array{singles[a], singles[b], singles[c]}, best);
+  }
+  bool settles(const Ring& ring, std::span<const std::int32_t> material, const Proposal& p) const {
+    std::array<std::int32_t, Ring::kMost> changed;
+    std::copy(material.begin(), material.end(), changed.begin());
+    for (int f = 0; f < p.count; ++f)
+      changed[static_cast<std::size_t>(p.flips[static_cast<std::size_t>(f)].slot)] =
+          p.flips[static_cast<std::size_t>(f)].to;
+    return ring.manifold({changed.data(), material.size()});
+  }
+  // Where locked cells stand in the way: the free cells go to one or two materials, whichever way is manifold
+  // with fewest changes. `otherwise` when there is none.
+  Proposal around_locked(const Ring& ring, std::span<const std::int32_t> material,
+                         const std::vector<std::int32_t>& present, const Proposal& otherwise) const {
+    Proposal best = otherwise;
+    if (ring.size > 8) return best;
+    int fewest = 9;
+    std::vector<int> free;
+    for (int c = 0; c < ring.size; ++c)
+      if (!edits_.locked(ring.cell[static_cast<std::size_t>(c)])) free.push_back(c);
+    for (const std::int32_t a : present)
+      for (const std::int32_t b : present)
+        for (unsigned mask = 0; a < b && mask < 1U << free.size(); ++mask) {
+          Proposal p;
+          p.cost = kFrozen;
+          for (std::size_t i = 0; i < free.size(); ++i) {
+            const std::int32_t to = mask >> i & 1 ? a : b;
+            if (material[static_cast<std::size_t>(free[i])] != to)
+              p.flips[static_cast<std::size_t>(p.count++)] = {free[i], to};
+          }
+          if (p.count >= fewest || !settles(ring, material, p)) continue;
+          fewest = p.count;
+          best = p;
+        }
+    return best;
   }
   Proposal all_to(const Ring& ring, std::span<const std::int32_t> material, std::int32_t m) const {
     Proposal p;

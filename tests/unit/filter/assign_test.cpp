@@ -43,35 +43,5 @@ TEST(AssignMaterials, AThreeWayTieLooksAtAllThree) {
             (std::vector<std::int32_t>{1, 1, 1}));
 }
 
-TEST(ShaveBoundary, ReassignsLoneCellsOnTheBoxOnly) {
-  // 5^3 cells of material 1: a lone cell of 2 inside, one in a side, one in a corner, a pair of 3 in another
-  // side.
-  const Index3 cells{5, 5, 5};
-  test::Case input = test::voxels("lone cells", cells, 4, [](const Index3& c) -> std::int32_t {
-    if (c == Index3{2, 2, 2} || c == Index3{4, 2, 2} || c == Index3{0, 0, 0}) return 2;
-    return c == Index3{0, 2, 4} || c == Index3{0, 3, 4} ? 3 : 1;
-  });
-  test::Overlay o = test::overlay(input);
-  const std::vector<std::int32_t> before = o.cells.material;
-  EXPECT_EQ(shave_boundary(o.cells, face_neighbours(o.cells), 0), 2);
-  for (std::int64_t p = 0; p < 125; ++p) {
-    const Index3 c = whole(cells).cell(p);
-    const bool shaved = c == Index3{4, 2, 2} || c == Index3{0, 0, 0};
-    EXPECT_EQ(o.cells.material[static_cast<std::size_t>(p)],
-              shaved ? 0 : before[static_cast<std::size_t>(p)]);
-  }
-  EXPECT_EQ(shave_boundary(o.cells, face_neighbours(o.cells), 0), 0)
-      << "cells that have the material already are left";
-}
-
-TEST(ShaveBoundary, JudgesAllCellsBeforeItChangesAny) {
-  // Alternating row: every cell is alone, whichever is looked at first.
-  test::Overlay o = test::overlay(test::voxels({6, 1, 1}, {1, 2, 1, 2, 1, 2}));
-  EXPECT_EQ(shave_boundary(o.cells, face_neighbours(o.cells), 0), 6);
-  test::Overlay one = test::overlay(test::voxels({1, 1, 1}, {2}));
-  EXPECT_EQ(shave_boundary(one.cells, face_neighbours(one.cells), 0), 0)
-      << "a grid of one cell has no neighbours";
-}
-
 }  // namespace
 }  // namespace sculpt

@@ -60,7 +60,7 @@ TEST(ResolveNonManifold, MendsEveryNodeOfTwoMaterials) {
     EXPECT_EQ(report.bad_nodes == 0, before) << "mask " << mask;
     EXPECT_EQ(o.cells.material == material, before) << "mask " << mask;
     EXPECT_EQ(report.forced_nodes, 0) << "mask " << mask;
-    EXPECT_LE(report.changed_cells, 8) << "mask " << mask;
+    EXPECT_LE(report.manifold_cells, 8) << "mask " << mask;
   }
 }
 
@@ -85,7 +85,7 @@ void expect_settled(const test::Case& input) {
   const std::vector<std::int32_t> material = o.cells.material;
   const FilterReport again = resolve(o);
   EXPECT_EQ(again.bad_nodes, 0) << input.name;
-  EXPECT_EQ(again.changed_cells, 0) << input.name;
+  EXPECT_EQ(again.manifold_cells, 0) << input.name;
   EXPECT_EQ(o.cells.material, material) << input.name << ": a second run changes something";
   for (const std::int32_t m : material) ASSERT_TRUE(m >= 0 && m < input.materials);
 }
@@ -112,7 +112,7 @@ TEST(ResolveNonManifold, SettlesCheckerboards) {
 TEST(ResolveNonManifold, LeavesThinGridsAlone) {
   test::Overlay row = test::overlay(test::noise({30, 1, 1}, 5, 2));
   const std::vector<std::int32_t> before = row.cells.material;
-  EXPECT_EQ(resolve(row).changed_cells, 0) << "nodes of a row of cells are always manifold";
+  EXPECT_EQ(resolve(row).manifold_cells, 0) << "nodes of a row of cells are always manifold";
   EXPECT_EQ(row.cells.material, before);
 }
 

@@ -62,6 +62,15 @@ void Edits::share() {
   pending_.clear();
 }
 
+void Edits::count_materials() {
+  std::int64_t last = -1;
+  for (const std::int32_t m : mesh.material) last = std::max<std::int64_t>(last, m);
+  cells_of_.assign(static_cast<std::size_t>(comm().max(last) + 1), 0);
+  for (LocalId c = 0; c < mesh.size(); ++c)
+    if (owned(c)) ++cells_of_[at(material(c))];
+  comm().sum(cells_of_);
+}
+
 void Edits::lock_materials(std::int64_t materials) {
   locked_.assign(mesh.hexes.size(), 0);
   const Pieces piece = pieces(*this, std::numeric_limits<std::int64_t>::max());

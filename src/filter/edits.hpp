@@ -42,6 +42,15 @@ class Edits {
   // Without any order that spreads through the grid: ties between cells are broken by this, then by id.
   [[nodiscard]] std::uint64_t lot(LocalId cell) const;
 
+  // Price of taking a cell from a rare material: 1 / its cells in the input of the filter (0 for one that had
+  // none).
+  [[nodiscard]] double rarity(std::int32_t material) const {
+    const auto m = at(material);
+    return m < cells_of_.size() && cells_of_[m] > 0 ? 1 / static_cast<double>(cells_of_[m]) : 0;
+  }
+  // Collective. Counts the cells of the materials for rarity().
+  void count_materials();
+
   // Every rank that sees the cell makes the same change.
   void change(LocalId cell, std::int32_t to);
   // By the owner alone; the others learn of it from share().
@@ -60,6 +69,7 @@ class Edits {
   std::vector<std::uint8_t> changes_;   // per cell
   std::vector<std::uint8_t> unshared_;  // per cell: changed by its owner since the last share()
   std::vector<std::uint8_t> locked_;    // per cell; empty: none
+  std::vector<std::int64_t> cells_of_;  // per material, all ranks, when counted
   std::vector<LocalId> changed_, pending_;
 };
 

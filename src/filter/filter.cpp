@@ -33,13 +33,14 @@ FilterReport filter_materials(HexMesh& mesh, const Fractions& fractions, const F
                               const std::function<void(const std::string&)>& said) {
   Edits edits(mesh, fractions, neighbours, around);
   FilterReport report;
+  edits.count_materials();
   if (options.keep_materials > 0) edits.lock_materials(options.keep_materials);
   if (options.shave_to) report.shaved = shave_boundary(edits, *options.shave_to);
   ManifoldRepair repair(edits);
   Protrusions protrusions(edits, options.defeature_box);
   std::int64_t changes = 1;
   while (options.defeature && changes > 0 && report.rounds < options.defeature_rounds) {
-    const IslandReport islands = remove_islands(edits, options.min_vol_cells);
+    const IslandReport islands = remove_islands(edits, options.min_vol_cells - 1);
     const std::int64_t protruding = protrusions.remove(), repaired = repair.run(report);
     std::int64_t reversed = 0;
     changes = islands.cells + protruding + repaired;

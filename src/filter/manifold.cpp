@@ -16,6 +16,7 @@ constexpr int kLockedPasses = 90;  // then locked cells are no longer spared
 constexpr int kReversalPasses = 10;
 constexpr double kFrozen = 1000;   // cost that keeps a cell from changing again
 constexpr double kContact = 0.05;  // cost per face neighbour of the old (+) and of the new (-) material
+constexpr double kRare = 0.5;  // cost of taking the only cell of a material; the gain of giving it another
 constexpr double kReversed = 0.1;  // squared sine: faces within 18 degrees of being back to back
 
 struct Flip {
@@ -162,7 +163,8 @@ class ManifoldRepair::Work {
       with_old += mesh_.material[at(n)] == from;
       with_new += mesh_.material[at(n)] == to;
     }
-    return edits_.loss(cell, to) + kContact * (with_old - with_new) + (edits_.frozen(cell) ? kFrozen : 0.0);
+    return edits_.loss(cell, to) + kContact * (with_old - with_new) +
+           kRare * (edits_.rarity(from) - edits_.rarity(to)) + (edits_.frozen(cell) ? kFrozen : 0.0);
   }
 
   // Change in the number of non-manifold nodes around the flipped cells if the flips were made.

@@ -44,8 +44,8 @@ constexpr EnumValue kPillows[] = {{"off", kPillowOff},
 constexpr EnumValue kDefeatures[] = {{"off", kDefeatureOff},
                                      {"none", kDefeatureOff},
                                      {"filter", kDefeatureFilter},
-                                     {"collapse", kDefeatureCollapse},
-                                     {"filter_and_collapse", kDefeatureAll}};
+                                     {"collapse", kDefeatureCollapse, false},
+                                     {"filter_and_collapse", kDefeatureAll, false}};
 
 constexpr Group kS = Group::kSmoothing;
 constexpr OptionSpec kSmoothingOptions[] = {
@@ -241,15 +241,17 @@ constexpr OptionSpec kImproveOptions[] = {
      .group = kM,
      .slot = &Deck::defeature,
      .help = "Remove small features",
-     .about = "filter: small volumes, protrusions and isthmuses; collapse: small curves and surfaces.",
+     .about = "filter: small volumes, protrusions and isthmuses are given to their neighbours. collapse: "
+              "small curves and "
+              "surfaces.",
      .supported = true,
      .values = kDefeatures},
     {.name = "min_vol_cells",
      .flag = "-mvs",
      .group = kM,
      .slot = &Deck::min_vol_cells,
-     .help = "Cells of a volume that is removed",
-     .about = "A connected group with this many cells or fewer goes to its dominant neighbour.",
+     .help = "Least cells of a volume",
+     .about = "A connected group with fewer cells goes to its dominant neighbour.",
      .supported = true,
      .lo = 0,
      .hi = kMaxCount},

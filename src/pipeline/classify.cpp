@@ -76,7 +76,7 @@ std::vector<std::int64_t> count_cells(const Comm& comm, const HexMesh& cells, st
 // Says which materials of the input have no cell left.
 void report_lost(const Comm& comm, const HexMesh& cells, const std::vector<std::int64_t>& before,
                  const MaterialTable& materials, const Log& log) {
-  const std::vector<std::int64_t> after = count_cells(comm, cells, before.size());
+  const std::vector<std::int64_t> after = count_cells(comm, cells, materials.block_id.size());
   std::string ids;
   std::int64_t lost = 0, lost_cells = 0;
   for (std::size_t m = 0; m < before.size(); ++m) {

@@ -87,6 +87,43 @@ TEST_F(SameBits, PillowSurfaces) { expect_same(grains(8, 6, 5), "pillow_surfaces
 
 TEST_F(SameBits, MicroShave) { expect_same(grains(8, 40, 11), "micro_shave = true\n", kFew); }
 
+TEST_F(SameBits, Defeature) {
+  expect_same(grains(9, 60, 13), "defeature = 1\ndefeature_bbox = true\nmin_vol_cells = 8\n",
+              {1, 2, 3, 5, 8});
+}
+
+TEST_F(SameBits, KeptMaterialsWithoutReversals) {
+  const RankMesh mesh = expect_same(grains(8, 60, 14),
+                                    "defeature = 1\nmicro_shave = true\nkeep_materials = true\n"
+                                    "resolve_reversals = true\n",
+                                    {1, 2, 3, 5, 8});
+  write("raw.spn", spn_text(grains(8, 60, 14)));
+  EXPECT_EQ(hexes_by_block(mesh).size(),
+            hexes_by_block(this->mesh(spn_deck(grains(8, 60, 14), "raw.spn") + "stair = fast\n", 1)).size());
+}
+
+TEST_F(SameBits, Thickened) {
+  expect_same(grains(9, 6, 5), "thicken_material = 2 0.4\nthicken_material = 4 0.3\ndefeature = 1\n", kFew);
+  write("f.tec", smooth_fractions());
+  expect_same("input_micro = f.tec\nthicken_material = 2 0.3\n", kFew);
+}
+
+TEST_F(SameBits, ThickenedToTheInputVolume) {
+  write("v.spn", spn_text(grains(10, 6, 5)));
+  expect_same(grains(10, 6, 5),
+              "defeature = 1\nthicken_material = 2 auto\nthicken_material = 3 auto\ncompare_volume = true\n",
+              {1, 2, 3, 5, 8});
+  const std::string console = first_console();
+  EXPECT_NE(console.find("(found by auto)"), std::string::npos);
+}
+
+TEST_F(SameBits, SeparatedByVoid) {
+  expect_same(grains(9, 5, 6), "thicken_void = 0.4\n", kFew);
+  const RankMesh mesh =
+      expect_same(grains(9, 5, 6), "thicken_void = 1\nmesh_void = true\nvoid_mat = 77\n", kFew);
+  EXPECT_EQ(hexes_by_block(mesh).count(77), 1U);
+}
+
 TEST_F(SameBits, FixedBox) { expect_same(grains(8, 6, 5), "smooth = fixed_bbox\ncsmooth = vfrac\n", kFew); }
 
 TEST_F(SameBits, UnmeshedVoid) { expect_same(letter_f(), "void_mat = 1\n", kFew); }

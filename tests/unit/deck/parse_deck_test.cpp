@@ -147,6 +147,10 @@ TEST(ParseDeck, RefusesBrokenRecords) {
             "deck.i:2: option 'thicken_material' needs an id and a value, found '3'");
   EXPECT_EQ(complaint("thicken_material = 3 1.5"),
             "deck.i:2: option 'thicken_material' needs a number from 0 to 1, found '3 1.5'");
+  EXPECT_EQ(one_line("thicken_material = 3 auto").thicken_material,
+            (std::vector<MaterialValue>{{3, MaterialValue::kAuto}}));
+  EXPECT_EQ(complaint("thicken_material = 3 much"),
+            "deck.i:2: option 'thicken_material' needs a number from 0 to 1, found '3 much'");
   EXPECT_EQ(complaint("material_name = x copper"),
             "deck.i:2: option 'material_name' needs an integer from 0 to 2147483647, found 'x copper'");
   EXPECT_EQ(complaint("sideset = 1 0 0 0"),

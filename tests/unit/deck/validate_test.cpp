@@ -59,12 +59,9 @@ scale = 40)"),
 TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
   EXPECT_EQ(verdict(kSpn + "pillow_curves = true"),
             "option 'pillow_curves' (line 6 of deck.i) is not supported yet");
-  EXPECT_EQ(verdict(kSpn + "defeature = 1"), "option 'defeature' (line 6 of deck.i) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "remove_bad = 0.0"),
             "option 'remove_bad' (line 6 of deck.i) is not supported yet");
   EXPECT_EQ(verdict("stl_file = a.stl"), "option 'stl_file' (line 2 of deck.i) is not supported yet");
-  EXPECT_EQ(verdict(kSpn + "thicken_material = 3 0.2"),
-            "option 'thicken_material' (line 6 of deck.i) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "check_periodic = true"),
             "option 'check_periodic' (line 6 of deck.i) is not supported yet");
   const CommandLine line = parse_command_line(std::vector<std::string>{"-cs", "0.5"}, read_deck_file);
@@ -75,6 +72,8 @@ TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
 TEST(Validate, RefusesUnsupportedValues) {
   EXPECT_EQ(verdict(kSpn + "smooth = to_geom"),
             "option 'smooth' (line 6 of deck.i): value to_geometry (4) is not supported yet");
+  EXPECT_EQ(verdict(kSpn + "defeature = 3"),
+            "option 'defeature' (line 6 of deck.i): value filter_and_collapse (3) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "gen_sidesets = 9"),
             "option 'gen_sidesets' (line 6 of deck.i): value input_mesh (9) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "pillow = 3"),

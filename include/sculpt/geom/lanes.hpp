@@ -36,6 +36,9 @@ struct Vec3Lanes {
 SCULPT_INLINE Vec3Lanes operator-(const Vec3Lanes& a, const Vec3Lanes& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
+SCULPT_INLINE Vec3Lanes operator+(const Vec3Lanes& a, const Vec3Lanes& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 SCULPT_INLINE Lanes dot(const Vec3Lanes& a, const Vec3Lanes& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 SCULPT_INLINE Vec3Lanes cross(const Vec3Lanes& a, const Vec3Lanes& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

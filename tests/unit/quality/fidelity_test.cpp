@@ -27,8 +27,7 @@ TEST(MeasureKink, OfACornerByHand) {
   EXPECT_EQ(kink.quads, 3);
   EXPECT_EQ(kink.edges, 3);
   EXPECT_NEAR(kink.mean, 90, 1e-6);
-  // The normals are taken across the diagonals: with the corner node pulled to the middle of the others, the
-  // three quads are halves of a plane through them.
+  // With the corner node pulled inwards, each normal is that of the diagonals of its quad.
   mesh.position[13] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
   kink = measure_kink(Comm::self(), mesh);
   const Vec3 n = unit(cross(mesh.position[13] - Vec3{1, 0, 0}, Vec3{1, 0, 1} - Vec3{1, 1, 0})),
@@ -36,7 +35,17 @@ TEST(MeasureKink, OfACornerByHand) {
   EXPECT_NEAR(kink.mean, std::acos(std::fabs(dot(n, m))) * 180 / std::acos(-1.0), 1e-6);
 }
 
-// A sharp fold counts with its full angle, and edges where three materials meet do not count.
+// The middle of a plane pushed out until both halves stand at 60 degrees to it.
+TEST(MeasureKink, OfASharpFoldIsTheFullAngle) {
+  HexMesh mesh = cells_of(test::voxels({2, 2, 1}, {0, 1, 0, 1}));
+  for (Vec3& p : mesh.position)
+    if (p.x == 1 && p.y == 1) p.x += std::sqrt(3.0);
+  const Kink kink = measure_kink(Comm::self(), mesh);
+  EXPECT_EQ(kink.edges, 1);
+  EXPECT_NEAR(kink.mean, 120, 1e-6);
+}
+
+// Edges where three materials meet do not count.
 TEST(MeasureKink, LeavesOutEdgesOfSeveralInterfaces) {
   const Kink kink = measure_kink(Comm::self(), cells_of(test::voxels({2, 2, 1}, {0, 1, 2, 2})));
   EXPECT_EQ(kink.quads, 3);

@@ -323,10 +323,11 @@ constexpr OptionSpec kOutputOptions[] = {
      .group = kO,
      .slot = &Deck::quality,
      .help = "Write quality metrics",
-     .about = "File that receives the quality of the mesh: histogram, blocks, interfaces and the worst "
-              "hexes. JSON "
-              "if the name ends in .json, else CSV. true: a CSV file named after the mesh, "
-              "<exodus_file>.quality.csv. Layout: file-formats.md.",
+     .about =
+         "File that receives the quality of the mesh: histogram, blocks, interfaces and the worst hexes. "
+         "JSON if "
+         "the name ends in .json, else CSV. true, as older decks have it: a CSV file named after the mesh, "
+         "mesh.quality.csv for exodus_file = mesh.",
      .supported = true,
      .unset = "none",
      .argument = "file name"},

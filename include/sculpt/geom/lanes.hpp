@@ -8,6 +8,7 @@
 #define SCULPT_KERNEL
 #endif
 #define SCULPT_INLINE inline __attribute__((always_inline))
+#pragma GCC diagnostic ignored "-Wpsabi"  // everything is inlined, so it does not matter how lanes are passed
 
 namespace sculpt {
 

@@ -86,10 +86,12 @@ std::int64_t block_id(const QualityReport& report, std::int32_t material) {
 
 void write_text(const std::string& path, const std::string& text) {
   std::FILE* file = std::fopen(path.c_str(), "w");
-  bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if (file != nullptr) good = std::fclose(file) == 0 && good;
+  const bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size() &&
+                    std::fflush(file) == 0;
+  const int cause = errno;
+  if (file != nullptr) std::fclose(file);
   if (!good)
-    throw Error(fmt::format("quality: cannot write '{}': {}", shown_name(path), std::strerror(errno)));
+    throw Error(fmt::format("quality: cannot write '{}': {}", shown_name(path), std::strerror(cause)));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "sculpt/exo/merge_files.hpp"
 #include "sculpt/exo/read_exodus.hpp"
 #include "sculpt/exo/write_rank_file.hpp"
+#include "sculpt/write/quality_file.hpp"
 #include "support/stages.hpp"
 
 namespace sculpt::test {
@@ -269,6 +270,19 @@ TEST(WriteMesh, LeavesNothingBehindWhenOneRankCannotWrite) {
   if (comm.rank() == comm.size() - 1) options.base = folder.file("no/such/folder/mesh");
   EXPECT_THROW((void)write_mesh(comm, mesh, {}, options), AgreedError);
   EXPECT_EQ(folder.files(), std::set<std::string>{});
+}
+
+TEST(WriteQualityFile, IsCompleteOrNotThere) {
+  const SharedFolder folder;
+  const Comm comm = Comm::world();
+  write_quality_file(comm, {}, "mesh", folder.file("q.json"));
+  write_quality_file(comm, {}, "mesh", folder.file("q.csv"));
+  EXPECT_EQ(folder.files(), (std::set<std::string>{"q.csv", "q.json"}));
+  if (comm.rank() == 0) fs::create_directory(folder.file("taken"));
+  EXPECT_THROW(write_quality_file(comm, {}, "mesh", folder.file("taken")), AgreedError);
+  EXPECT_THROW(write_quality_file(comm, {}, "mesh", folder.file("absent/q.csv")), AgreedError);
+  EXPECT_EQ(folder.files(), (std::set<std::string>{"q.csv", "q.json", "taken"}));
+  EXPECT_EQ(fs::file_size(folder.file("q.json")), quality_json({}, "mesh").size());
 }
 
 TEST(CheckOutputFolder, SaysBeforeTheWorkWhatWouldFailAfterIt) {

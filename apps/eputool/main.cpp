@@ -108,8 +108,13 @@ int main(int argc, char** argv) {
     fmt::print("{}: {} nodes, {} elements, {} blocks, {} side sets, {} node sets from {} file{}\n",
                joined.path, joined.nodes, joined.elements, joined.blocks, joined.side_sets, joined.node_sets,
                request.ranks, request.ranks == 1 ? "" : "s");
-    if (joined.dropped_time_steps > 0)
-      fmt::print("warning: {} time steps of variables were left out\n", joined.dropped_time_steps);
+    if (joined.element_variables > 0)
+      fmt::print("{} element variable{} at {} time step{}\n", joined.element_variables,
+                 joined.element_variables == 1 ? "" : "s", joined.time_steps,
+                 joined.time_steps == 1 ? "" : "s");
+    if (joined.dropped_variables > 0)
+      fmt::print("warning: {} variables of nodes, sets or the whole mesh were left out\n",
+                 joined.dropped_variables);
     return 0;
   } catch (const std::exception& e) {
     fmt::print(stderr, "eputool: {}\n", e.what());

@@ -338,7 +338,10 @@ constexpr OptionSpec kImproveOptions[] = {
      .group = kM,
      .slot = &Deck::remove_bad,
      .help = "Quality below which hexes are deleted",
-     .about = "Hexes with a smaller scaled Jacobian are deleted.",
+     .about =
+         "Hexes with a smaller scaled Jacobian are deleted from the mesh that is written, with the nodes "
+         "and faces of sidesets that were theirs alone. The faces laid bare get no sideset.",
+     .supported = true,
      .lo = kMinNorm,
      .hi = kMaxNorm,
      .unset = "off"},

@@ -323,9 +323,36 @@ constexpr OptionSpec kOutputOptions[] = {
      .group = kO,
      .slot = &Deck::quality,
      .help = "Write quality metrics",
-     .about = "File that receives the quality of each hex.",
+     .about =
+         "File that receives the quality of the mesh: histogram, blocks, interfaces and the worst hexes. "
+         "JSON if "
+         "the name ends in .json, else CSV. true, as older decks have it: a CSV file named after the mesh, "
+         "mesh.quality.csv for exodus_file = mesh.",
+     .supported = true,
      .unset = "none",
      .argument = "file name"},
+    {.name = "quality_variable",
+     .flag = "",
+     .group = kO,
+     .slot = &Deck::quality_variable,
+     .help = "Write the scaled Jacobian of every hex",
+     .about =
+         "The Exodus files get the element variable scaled_jacobian, at time 0. This option is not Sculpt's.",
+     .supported = true},
+    {.name = "require_quality",
+     .flag = "",
+     .group = kO,
+     .slot = &Deck::require_quality,
+     .help = "Scaled Jacobian that ends the run with status 3 when missed",
+     .about =
+         "The run ends with exit status 3 when a hex of the written mesh has a smaller scaled Jacobian, or "
+         "is not valid: scaled Jacobian not positive, or Jacobian not positive everywhere inside. With 0 "
+         "only validity "
+         "counts. The files are written all the same. This option is not Sculpt's.",
+     .supported = true,
+     .lo = 0,
+     .hi = kMaxNorm,
+     .unset = "off"},
     {.name = "export_comm_maps",
      .flag = "-C",
      .group = kO,

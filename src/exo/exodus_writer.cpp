@@ -80,15 +80,19 @@ void check_promises(const RankMesh& mesh) {
     check(set.element.size() == set.side.size() && within(set.element, 1, elements) && within(set.side, 1, 6),
           "rank file: bad side set");
   for (const auto& set : mesh.node_sets) check(within(set.node, 1, nodes), "rank file: bad node set");
+  for (const auto& variable : mesh.element_variables)
+    check(variable.in_block.size() == mesh.blocks.size(), "rank file: bad element variable");
   check_nemesis(mesh);
 }
 
-// Calls visit(kind, id, name) for every block and set.
+// Calls visit(kind, id, name) for every block, set and variable (numbered from 1).
 template <class Visit>
 void for_each_entity(const RankMesh& mesh, const Visit& visit) {
   for (const auto& b : mesh.blocks) visit("block", b.id, b.name);
   for (const auto& s : mesh.side_sets) visit("side set", s.id, s.name);
   for (const auto& s : mesh.node_sets) visit("node set", s.id, s.name);
+  std::int64_t number = 0;
+  for (const auto& v : mesh.element_variables) visit("element variable", ++number, v.name);
 }
 
 std::size_t longest_name(const std::string& path, const RankMesh& mesh) {
@@ -224,6 +228,17 @@ void write_sets(ExodusFile& file, const RankMesh& mesh) {
   file.use_int64();
 }
 
+// Defines the element variables and where they have values.
+void define_variables(const ExodusFile& file, const RankMesh& mesh) {
+  if (mesh.element_variables.empty()) return;
+  const int count_of = static_cast<int>(mesh.element_variables.size());
+  std::vector<int> table;  // block by block; blocks without elements here have their columns all the same
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+    for (const auto& v : mesh.element_variables) table.push_back(v.in_block[b]);
+  file.must(ex_put_all_var_param(file.id(), 0, 0, count_of, table.data(), 0, nullptr, 0, nullptr),
+            "defining the element variables");
+}
+
 // ---- data
 
 template <class Entity>
@@ -287,12 +302,40 @@ void write_nemesis_maps(ExodusFile& file, const RankMesh& mesh) {
   file.use_int64();
 }
 
-void write_all(const std::string& path, const RankMesh& mesh, ExodusTables tables) {
+void write_values(const ExodusFile& file, const RankMesh& mesh, const ElementValues& values) {
+  const int id = file.id();
+  std::vector<char*> names;
+  for (const auto& v : mesh.element_variables) names.push_back(const_cast<char*>(v.name.c_str()));
+  if (!names.empty())
+    file.must(ex_put_variable_names(id, EX_ELEM_BLOCK, static_cast<int>(names.size()), names.data()),
+              "writing the names of the element variables");
+  for (std::size_t step = 0; step < mesh.times.size(); ++step) {
+    const int at_step = static_cast<int>(step) + 1;
+    file.must(ex_put_time(id, at_step, &mesh.times[step]), "writing a time");
+    for (std::size_t v = 0; v < names.size(); ++v) {
+      const std::span<const double> all = values(step, v);
+      check(count(mesh.hex_id) == static_cast<std::int64_t>(all.size()), "rank file: values are missing");
+      std::size_t first = 0;
+      for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+        const std::int64_t elements = elements_of(mesh.blocks[b]);
+        if (elements > 0 && mesh.element_variables[v].in_block[b] != 0)
+          file.must(ex_put_var(id, at_step, EX_ELEM_BLOCK, static_cast<int>(v) + 1, mesh.blocks[b].id,
+                               elements, all.data() + first),
+                    "writing an element variable");
+        first += static_cast<std::size_t>(elements);
+      }
+    }
+  }
+}
+
+void write_all(const std::string& path, const RankMesh& mesh, ExodusTables tables,
+               const ElementValues& values) {
   const std::size_t longest = longest_name(path, mesh);
   ExodusFile file = ExodusFile::create(path, format_of(mesh));
   define_header(file, mesh, longest);
   if (tables.nemesis) define_nemesis(file, mesh);
   define_blocks(file, mesh, tables.node_ids && tables.element_ids && !mesh.x.empty() && !mesh.hex_id.empty());
+  define_variables(file, mesh);
   write_sets(file, mesh);
   write_names(file, EX_ELEM_BLOCK, mesh.blocks);
   write_names(file, EX_NODE_SET, mesh.node_sets);
@@ -300,15 +343,17 @@ void write_all(const std::string& path, const RankMesh& mesh, ExodusTables table
   write_nodes(file, mesh, tables.node_ids);
   write_elements(file, mesh, tables.element_ids);
   if (tables.nemesis) write_nemesis_maps(file, mesh);
+  write_values(file, mesh, values);
   file.close_written();
 }
 
 }  // namespace
 
-void write_exodus(const std::string& path, const RankMesh& mesh, ExodusTables tables) {
+void write_exodus(const std::string& path, const RankMesh& mesh, ExodusTables tables,
+                  const ElementValues& values) {
   check_promises(mesh);
   try {
-    write_all(path, mesh, tables);
+    write_all(path, mesh, tables, values);
   } catch (...) {
     discard(path);
     throw;

@@ -59,14 +59,20 @@ class Merger {
                                 paths_.front(), paths_.back()));
   }
 
-  RankMesh join() {
+  const RankMesh& join() {
     collect_ids();
     place_blocks();
     for (int r = 0; r < ranks_; ++r) add_rank(r);
     finish_sets();
-    return std::move(mesh_);
+    return mesh_;
   }
-  [[nodiscard]] int time_steps() const { return time_steps_; }
+  [[nodiscard]] int dropped_variables() const { return dropped_variables_; }
+
+  // The joined values of one variable at one step; after join().
+  std::span<const double> values(std::size_t step, std::size_t variable) {
+    if (step + 1 != steps_read_) read_step(step);
+    return values_[variable];
+  }
 
  private:
   const std::string& path(int r) const { return paths_[static_cast<std::size_t>(r)]; }
@@ -108,7 +114,9 @@ class Merger {
     mesh_.global_nodes = header.global_nodes;
     mesh_.global_hexes = header.global_elements;
     mesh_.large = header.large;
-    time_steps_ = header.time_steps;
+    mesh_.times = header.times;
+    mesh_.element_variables = header.element_variables;
+    dropped_variables_ = header.other_variables;
     for (const auto& b : header.blocks) {
       auto& block = mesh_.blocks.emplace_back();
       block.id = b.id;
@@ -136,6 +144,21 @@ class Merger {
     compare_ids(header.blocks, mesh_.blocks, r, "blocks");
     compare_ids(header.side_sets, mesh_.side_sets, r, "side sets");
     compare_ids(header.node_sets, mesh_.node_sets, r, "node sets");
+    compare_variables(header, r);
+  }
+
+  // A block has values when it has them on any rank.
+  void compare_variables(const ExodusReader::Header& header, int r) {
+    if (header.times != mesh_.times)
+      throw Error(fmt::format("'{}' has {} time steps, '{}' has {}, or their times differ", path(r),
+                              header.times.size(), path(0), mesh_.times.size()));
+    const auto& found = header.element_variables;
+    auto& expected = mesh_.element_variables;
+    if (!std::equal(found.begin(), found.end(), expected.begin(), expected.end(),
+                    [](const auto& a, const auto& b) { return a.name == b.name; }))
+      throw Error(fmt::format("'{}' has other element variables than '{}'", path(r), path(0)));
+    for (std::size_t v = 0; v < found.size(); ++v)
+      for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) expected[v].in_block[b] |= found[v].in_block[b];
   }
 
   template <class Found, class Expected>
@@ -239,23 +262,46 @@ class Merger {
     return joined;
   }
 
-  // Returns the joined element, from 1, of each local one.
-  std::vector<std::int32_t> add_elements(ExodusReader& reader, const std::vector<std::int32_t>& node) {
+  // The joined element, from 1, of each element of a rank file.
+  [[nodiscard]] std::vector<std::int32_t> joined_elements(ExodusReader& reader) const {
     const Ids ids = reader.element_ids();
-    std::vector<std::int32_t> joined(ids.size());
+    std::vector<std::int32_t> joined;
+    joined.reserve(ids.size());
+    for (std::size_t b = 0; b < mesh_.blocks.size(); ++b)
+      for (std::int64_t e = 0; e < reader.header().blocks[b].count; ++e)
+        joined.push_back(
+            static_cast<std::int32_t>(first_of_block_[b] + block_elements_[b].place(ids[joined.size()]) + 1));
+    return joined;
+  }
+
+  std::vector<std::int32_t> add_elements(ExodusReader& reader, const std::vector<std::int32_t>& node) {
+    std::vector<std::int32_t> joined = joined_elements(reader);
     std::size_t local = 0;
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
       const std::vector<std::int32_t> nodes = reader.connectivity(b);
       auto& block = mesh_.blocks[b];
       const auto width = static_cast<std::size_t>(block.nodes_per_element);
       for (std::size_t e = 0; e < nodes.size() / width; ++e, ++local) {
-        const std::size_t place = block_elements_[b].place(ids[local]);
-        joined[local] = static_cast<std::int32_t>(first_of_block_[b] + place + 1);
+        const std::size_t place = static_cast<std::size_t>(joined[local]) - 1 - first_of_block_[b];
         for (std::size_t c = 0; c < width; ++c)
           block.nodes[place * width + c] = node[static_cast<std::size_t>(nodes[e * width + c] - 1)];
       }
     }
     return joined;
+  }
+
+  void read_step(std::size_t step) {
+    values_.assign(mesh_.element_variables.size(), std::vector<double>(mesh_.hex_id.size(), 0));
+    for (int r = 0; r < ranks_; ++r) {
+      ExodusReader reader(path(r));
+      const std::vector<std::int32_t> element = joined_elements(reader);
+      for (std::size_t v = 0; v < values_.size(); ++v) {
+        const std::vector<double> local = reader.element_values(step, v);
+        for (std::size_t e = 0; e < local.size(); ++e)
+          values_[v][static_cast<std::size_t>(element[e]) - 1] = local[e];
+      }
+    }
+    steps_read_ = step + 1;
   }
 
   void finish_sets() {
@@ -278,20 +324,22 @@ class Merger {
   int ranks_;
   std::vector<std::string> paths_;
   bool parallel_ = false;
-  int time_steps_ = 0;
+  int dropped_variables_ = 0;
   Numbering nodes_, elements_;
   std::vector<Numbering> block_elements_;
   std::vector<std::size_t> first_of_block_;
   std::vector<int> seen_;  // 1 + the last rank that had the node; 0 = none yet
   std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> sides_;  // (element, side) of each side set
   RankMesh mesh_;
+  std::vector<std::vector<double>> values_;  // of the step that was read last, per variable
+  std::size_t steps_read_ = 0;
 };
 
 }  // namespace
 
 MergeResult merge_files(const std::string& base, int ranks, const MergeOptions& options) {
   Merger merger(base, ranks, options);
-  const RankMesh mesh = merger.join();
+  const RankMesh& mesh = merger.join();
   MergeResult result;
   result.path = options.output;
   if (result.path.empty())
@@ -302,9 +350,12 @@ MergeResult merge_files(const std::string& base, int ranks, const MergeOptions& 
   result.blocks = mesh.blocks.size();
   result.side_sets = mesh.side_sets.size();
   result.node_sets = mesh.node_sets.size();
-  result.dropped_time_steps = merger.time_steps();
+  result.element_variables = mesh.element_variables.size();
+  result.time_steps = mesh.times.size();
+  result.dropped_variables = merger.dropped_variables();
   const std::string temporary = temporary_name(result.path);
-  write_exodus(temporary, mesh, {false, !counts_from_one(mesh.node_id), !counts_from_one(mesh.hex_id)});
+  write_exodus(temporary, mesh, {false, !counts_from_one(mesh.node_id), !counts_from_one(mesh.hex_id)},
+               [&](std::size_t step, std::size_t variable) { return merger.values(step, variable); });
   try {
     publish(temporary, result.path);
   } catch (...) {

@@ -66,6 +66,7 @@ ExodusReader::ExodusReader(const std::string& path)
   read_header();
   read_blocks();
   read_sets();
+  read_variables();
   read_global();
 }
 ExodusReader::~ExodusReader() = default;
@@ -84,7 +85,6 @@ void ExodusReader::read_header() {
   header_.blocks.resize(static_cast<std::size_t>(p.num_elem_blk));
   header_.node_sets.resize(static_cast<std::size_t>(p.num_node_sets));
   header_.side_sets.resize(static_cast<std::size_t>(p.num_side_sets));
-  header_.time_steps = static_cast<int>(ex_inquire_int(file_->id(), EX_INQ_TIME));
   header_.large = (ex_int64_status(file_->id()) & EX_ALL_INT64_DB) != 0;
 }
 
@@ -134,6 +134,39 @@ void ExodusReader::read_sets() {
   };
   read(header_.side_sets, EX_SIDE_SET, 6 * header_.elements, "side set");
   read(header_.node_sets, EX_NODE_SET, header_.nodes, "node set");
+}
+
+void ExodusReader::read_variables() {
+  const int id = file_->id();
+  const std::int64_t steps = ex_inquire_int(id, EX_INQ_TIME);
+  if (steps > 0) {
+    header_.times.resize(static_cast<std::size_t>(steps));
+    file_->must(ex_get_all_times(id, header_.times.data()), "reading the times");
+  }
+  const auto variables = [&](ex_entity_type type) {
+    int count = 0;
+    file_->must(ex_get_variable_param(id, type, &count), "reading the number of variables");
+    return count;
+  };
+  for (const ex_entity_type type : {EX_GLOBAL, EX_NODAL, EX_NODE_SET, EX_SIDE_SET})
+    header_.other_variables += variables(type);
+  const int count = variables(EX_ELEM_BLOCK);
+  if (count == 0) return;
+  const std::size_t longest = allow_long_names(*file_), blocks = header_.blocks.size();
+  std::vector<char> text(static_cast<std::size_t>(count) * (longest + 1), '\0');
+  std::vector<char*> names;
+  for (std::size_t v = 0; v < static_cast<std::size_t>(count); ++v) names.push_back(&text[v * (longest + 1)]);
+  file_->must(ex_get_variable_names(id, EX_ELEM_BLOCK, count, names.data()),
+              "reading the names of the variables");
+  std::vector<int> table(blocks * names.size(), 0);
+  if (blocks > 0)
+    file_->must(ex_get_truth_table(id, EX_ELEM_BLOCK, static_cast<int>(blocks), count, table.data()),
+                "reading where variables have values");
+  for (std::size_t v = 0; v < names.size(); ++v) {
+    auto& variable = header_.element_variables.emplace_back();
+    variable.name = names[v];
+    for (std::size_t b = 0; b < blocks; ++b) variable.in_block.push_back(table[b * names.size() + v] != 0);
+  }
 }
 
 void ExodusReader::read_global() {
@@ -235,6 +268,20 @@ std::vector<std::int32_t> ExodusReader::node_set(std::size_t s) {
   return nodes;
 }
 
+std::vector<double> ExodusReader::element_values(std::size_t step, std::size_t variable) {
+  std::vector<double> values(static_cast<std::size_t>(header_.elements), 0);
+  std::size_t first = 0;
+  for (std::size_t b = 0; b < header_.blocks.size(); ++b) {
+    const Block& block = header_.blocks[b];
+    if (block.count > 0 && header_.element_variables.at(variable).in_block[b] != 0)
+      file_->must(ex_get_var(file_->id(), static_cast<int>(step) + 1, EX_ELEM_BLOCK,
+                             static_cast<int>(variable) + 1, block.id, block.count, values.data() + first),
+                  "reading an element variable");
+    first += static_cast<std::size_t>(block.count);
+  }
+  return values;
+}
+
 void ExodusReader::nemesis(RankMesh& mesh) {
   if (!header_.nemesis) return;
   const int id = file_->id();
@@ -332,6 +379,11 @@ RankMesh read_exodus(const std::string& path) {
     const auto& set = header.node_sets[s];
     mesh.node_sets.push_back({set.id, set.name, set.global_count, reader.node_set(s)});
   }
+  mesh.times = header.times;
+  mesh.element_variables = header.element_variables;
+  for (std::size_t step = 0; step < mesh.times.size(); ++step)
+    for (std::size_t v = 0; v < mesh.element_variables.size(); ++v)
+      mesh.element_values.push_back(reader.element_values(step, v));
   reader.nemesis(mesh);
   return mesh;
 }

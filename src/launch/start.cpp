@@ -130,7 +130,7 @@ int launch(const LaunchPlan& plan) {
   for (const auto& [name, value] : plan.environment) ::setenv(name.c_str(), value.c_str(), 0);
   start(plan);
   const int status = wait_for_end();
-  if (status == 0 || status == kToldStatus) return status;
+  if (status == 0 || status == kToldStatus || status == kPoorMeshStatus) return status;
   throw Error(describe_end(plan.argv[0], status));
 }
 

@@ -9,8 +9,7 @@
 namespace sculpt {
 namespace {
 
-constexpr double kUnits =
-    1073741824.0;  // 2^30 per unit of volume of a cell: sums of integers do not depend on ranks
+constexpr std::size_t kLines = 20;  // most lines of a list of hexes or blocks
 
 constexpr int kVolumePasses =
     5;  // of the Laplacian on volume nodes; more change nothing that the optimisation keeps
@@ -22,7 +21,44 @@ std::string time_text() {
   return text;
 }
 
-double cell_volume(const HexMesh& mesh) { return mesh.cell_size.x * mesh.cell_size.y * mesh.cell_size.z; }
+void print_hex(const Log& log, const QualityReport& report, const ListedHex& hex, const char* begin,
+               const char* end) {
+  std::int64_t block = 0;
+  for (const auto& b : report.blocks)
+    if (b.material == hex.material) block = b.id;
+  log.line("{} hex {} of block {} at {:g} {:g} {:g}: scaled Jacobian {:f}{}", begin, hex.element, block,
+           hex.centre.x, hex.centre.y, hex.centre.z, hex.scaled_jacobian, end);
+}
+
+// Hexes that no solver can use.
+void print_invalid(const Log& log, const QualityReport& report) {
+  const QualitySummary& q = report.summary;
+  if (q.not_positive_inside == 0) return;
+  log.line("WARNING: the Jacobian of {} hexes is not positive everywhere inside", q.not_positive_inside);
+  for (std::size_t i = 0; i < std::min(kLines, q.invalid.size()); ++i)
+    print_hex(log, report, q.invalid[i],
+              "WARNING:", q.invalid[i].scaled_jacobian > 0 ? ", folds inside" : "");
+}
+
+// Valid hexes below the floor that was asked for, as far as the list of the worst hexes goes.
+void print_below_floor(const Log& log, const QualityReport& report, double floor) {
+  std::vector<const ListedHex*> below;
+  for (const ListedHex& hex : report.summary.worst)
+    if (hex.scaled_jacobian < floor && hex.valid != 0) below.push_back(&hex);
+  if (below.empty()) return;
+  if (below.size() > kLines) below.resize(kLines);
+  log.line("  Worst valid hexes below pcol_threshold = {:g}:", floor);
+  for (const ListedHex* hex : below) print_hex(log, report, *hex, "   ", "");
+}
+
+void print_fidelity(const Log& log, const QualityReport& report) {
+  const Displacement& d = report.displacement;
+  log.line("  Min Edge Len (cells)  {:f}", report.summary.shortest_edge_cells);
+  log.line("  Interface Kink (deg)  {:f}", report.kink.mean);
+  log.line("  From Contour (cells)  max {:f}, mean {:f}", d.largest_from_contour, d.mean_from_contour);
+  log.line("  From Target (cells)   max {:f}, mean {:f}", d.largest_from_target, d.mean_from_target);
+  log.line("  Volume Moved (%)      {:f}", report.volume_moved);
+}
 
 }  // namespace
 
@@ -81,7 +117,8 @@ void print_smoothing_banner(const Log& log, const Deck& deck) {
 }
 
 void print_mesh_summary(const Comm& comm, const Log& log, const Deck& deck, const WriteSummary& written,
-                        const QualitySummary& quality) {
+                        const QualityReport& report) {
+  const QualitySummary& quality = report.summary;
   log.line();
   log.line("MESH SUMMARY");
   log.line("  Base Filename         {}", deck.exodus_file);
@@ -96,13 +133,44 @@ void print_mesh_summary(const Comm& comm, const Log& log, const Deck& deck, cons
   log.line("  Min Quality           {:f}", quality.least);
   log.line("  Avg Quality           {:f}", quality.average);
   log.line("  Min Edge Len          {:f}", quality.shortest_edge);
-  log.line("  Min Qual Rank         {}", quality.least_rank);
-  if (quality.hexes > 0 && quality.least < deck.pcol_threshold)
-    log.line("  Worst hex at          {:g} {:g} {:g}", quality.least_at.x, quality.least_at.y,
-             quality.least_at.z);
-  if (quality.not_positive_inside > 0)
-    log.line("WARNING: the Jacobian of {} hexes is not positive everywhere inside",
-             quality.not_positive_inside);
+  log.line("  Min Qual Rank         {}", quality.worst.empty() ? 0 : quality.worst.front().owner);
+  print_fidelity(log, report);
+  print_below_floor(log, report, deck.pcol_threshold);
+  print_invalid(log, report);
+}
+
+void print_volumes(const Log& log, const QualityReport& report) {
+  log.line();
+  log.line("VOLUME COMPARISON");
+  log.line("  {:>10} {:>18} {:>18} {:>10}", "Material", "Input Volume", "Mesh Volume", "Error (%)");
+  const auto row = [&](const std::string& name, double input, double meshed) {
+    log.line("  {:>10} {:>18.6f} {:>18.6f} {:>10.4f}", name, input * report.cell_volume,
+             meshed * report.cell_volume, input > 0 ? 100 * (meshed - input) / input : 0.0);
+  };
+  double input = 0, meshed = 0;
+  for (const auto& block : report.blocks) {
+    const double volume = report.of(block).volume;
+    row(std::to_string(block.id), block.input_volume, volume);
+    input += block.input_volume;
+    meshed += volume;
+  }
+  row("Total", input, meshed);
+}
+
+void print_removed(const Log& log, const Deck& deck, const MaterialTable& materials,
+                   const std::vector<std::int64_t>& removed) {
+  std::int64_t all = 0;
+  std::string blocks;
+  std::size_t listed = 0;
+  for (std::size_t m = 0; m < removed.size(); ++m) {
+    if (removed[m] == 0) continue;
+    all += removed[m];
+    if (++listed <= kLines)
+      blocks +=
+          fmt::format("{}{} of block {}", blocks.empty() ? "" : ", ", removed[m], materials.block_id[m]);
+  }
+  if (listed > kLines) blocks += fmt::format(", and others in {} more blocks", listed - kLines);
+  log.line("remove_bad = {:g}: {} hexes removed{}{}", deck.remove_bad, all, all > 0 ? ": " : "", blocks);
 }
 
 void print_end(const Comm& comm, const Log& log, double seconds) {
@@ -118,37 +186,6 @@ void print_end(const Comm& comm, const Log& log, double seconds) {
   log.line("Total Time on {} Procs {:f} sec. ({:f} min.)", comm.size(), total, total / 60);
   log.line("Slow Rank             {}", slow);
   log.line("Done!");
-}
-
-VolumeTable::VolumeTable(const Comm& comm, const HexMesh& cells, const Fractions& fractions,
-                         const MaterialTable& materials)
-    : block_id_(materials.block_id) {
-  std::vector<std::int64_t> units(block_id_.size(), 0);
-  for (std::size_t c = 0; c < cells.hexes.size(); ++c) {
-    if (cells.layer[c] != 0) continue;
-    for (auto e = static_cast<std::size_t>(fractions.offset[c]);
-         e < static_cast<std::size_t>(fractions.offset[c + 1]); ++e)
-      units[static_cast<std::size_t>(fractions.material[e])] += std::llround(kUnits * fractions.value[e]);
-  }
-  comm.sum(units);
-  for (const std::int64_t u : units) volume_.push_back(static_cast<double>(u) / kUnits * cell_volume(cells));
-}
-
-void VolumeTable::compare(const Comm& comm, const HexMesh& mesh, const Log& log) const {
-  std::vector<std::int64_t> units(block_id_.size(), 0);
-  for (LocalId h = 0; h < mesh.size(); ++h)
-    if (mesh.layer[static_cast<std::size_t>(h)] == 0)
-      units[static_cast<std::size_t>(mesh.material[static_cast<std::size_t>(h)])] +=
-          std::llround(kUnits * hex_volume(mesh.corners(h)) / cell_volume(mesh));
-  comm.sum(units);
-  log.line();
-  log.line("VOLUME COMPARISON");
-  log.line("  {:>10} {:>18} {:>18} {:>10}", "Material", "Input Volume", "Mesh Volume", "Error (%)");
-  for (std::size_t m = 0; m < block_id_.size(); ++m) {
-    const double meshed = static_cast<double>(units[m]) / kUnits * cell_volume(mesh);
-    log.line("  {:>10} {:>18.6f} {:>18.6f} {:>10.4f}", block_id_[m], volume_[m], meshed,
-             volume_[m] > 0 ? 100 * (meshed - volume_[m]) / volume_[m] : 0.0);
-  }
 }
 
 }  // namespace sculpt

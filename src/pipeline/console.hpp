@@ -7,6 +7,7 @@
 #include "sculpt/deck/deck.hpp"
 #include "sculpt/distribute/cartesian.hpp"
 #include "sculpt/input/material_source.hpp"
+#include "sculpt/quality/fidelity.hpp"
 #include "sculpt/smooth/smooth.hpp"
 #include "sculpt/write/write_mesh.hpp"
 
@@ -18,22 +19,14 @@ namespace sculpt {
 
 void print_decomposition(const Log& log, const CartesianParts& parts);
 void print_smoothing_banner(const Log& log, const Deck& deck);
-// Collective.
 void print_mesh_summary(const Comm& comm, const Log& log, const Deck& deck, const WriteSummary& written,
-                        const QualitySummary& quality);
+                        const QualityReport& report);
+// The table of compare_volume: input, mesh and error in percent, for each material that is meshed and in all.
+void print_volumes(const Log& log, const QualityReport& report);
+// What remove_bad did; removed: hexes of each material.
+void print_removed(const Log& log, const Deck& deck, const MaterialTable& materials,
+                   const std::vector<std::int64_t>& removed);
+// Collective.
 void print_end(const Comm& comm, const Log& log, double seconds);
-
-// Volume of each material by its volume fractions; compare_volume sets it beside that of the mesh.
-class VolumeTable {
- public:
-  // Collective.
-  VolumeTable(const Comm& comm, const HexMesh& cells, const Fractions& fractions,
-              const MaterialTable& materials);
-  void compare(const Comm& comm, const HexMesh& mesh, const Log& log) const;
-
- private:
-  std::vector<std::int64_t> block_id_;
-  std::vector<double> volume_;
-};
 
 }  // namespace sculpt

@@ -93,4 +93,18 @@ Geometry interface_geometry(Pillowed& pillowed, const HexMesh& cells, const Inte
   return g;
 }
 
+InterfaceTrack interface_track(const Pillowed& pillowed, const Geometry& geometry, const Interfaces& faces,
+                               const std::vector<Vec3>& contoured) {
+  const HexMesh& mesh = pillowed.mesh;
+  const int rank = mesh.node_exchange.comm().rank();
+  InterfaceTrack track;
+  for (std::size_t n = 0; n < mesh.position.size(); ++n) {
+    if (geometry.index[n] == kNone || pillowed.copied[n] != 0 || mesh.node_owner[n] != rank) continue;
+    track.node.push_back(mesh.node_id[n]);
+    track.contoured.push_back(contoured[at(faces.index_of[at(pillowed.source[n])])]);
+    track.smoothed.push_back(geometry.target[at(geometry.index[n])]);
+  }
+  return track;
+}
+
 }  // namespace sculpt

@@ -5,6 +5,7 @@
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/interface_smoothing.hpp"
 #include "sculpt/pillow/pillow.hpp"
+#include "sculpt/quality/fidelity.hpp"
 #include "sculpt/smooth/smooth.hpp"
 
 namespace sculpt {
@@ -17,5 +18,10 @@ namespace sculpt {
 // nodes lie on the surface: they are put a third of the way into its quads.
 [[nodiscard]] Geometry interface_geometry(Pillowed& pillowed, const HexMesh& cells, const Interfaces& faces,
                                           const std::vector<Weight>& weights);
+
+// Local. The interface nodes of the mesh that this rank owns, without copies. contoured: where the contour
+// placed each node of `faces`.
+[[nodiscard]] InterfaceTrack interface_track(const Pillowed& pillowed, const Geometry& geometry,
+                                             const Interfaces& faces, const std::vector<Vec3>& contoured);
 
 }  // namespace sculpt

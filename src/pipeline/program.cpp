@@ -41,7 +41,8 @@ void print_start(const Log& log, const Deck& deck, const std::string& program) {
   log.line();
 }
 
-void run_rank(const Comm& comm, const std::vector<std::string>& words, const std::string& program) {
+// Returns the exit status.
+int run_rank(const Comm& comm, const std::vector<std::string>& words, const std::string& program) {
   CommandLine line = parse_command_line(words, [&](const std::string& file) {
     std::string text;
     collectively(comm, "reading " + file, [&] {
@@ -51,7 +52,7 @@ void run_rank(const Comm& comm, const std::vector<std::string>& words, const std
   });
   if (const std::string text = text_instead_of_run(line); line.action != Action::kRun) {
     if (comm.rank() == 0) std::fputs(text.c_str(), stdout);
-    return;
+    return 0;
   }
   if (const std::string mismatch = check_rank_count(line.deck, comm.size()); !mismatch.empty())
     throw Error(mismatch);
@@ -59,7 +60,7 @@ void run_rank(const Comm& comm, const std::vector<std::string>& words, const std
   apply_input_defaults(line.deck);
   validate(line.deck);
   print_start(Log(comm.rank() == 0 && !line.deck.quiet), line.deck, program);
-  run(comm, line.deck);
+  return run(comm, line.deck);
 }
 
 int complain(const std::string& message) {
@@ -99,8 +100,7 @@ int sculpt_main(int argc, char** argv) {
   const MpiSession session(argc, argv);
   const Comm comm = Comm::world();
   try {
-    run_rank(comm, words, program);
-    return 0;
+    return run_rank(comm, words, program);
   } catch (const Error& e) {  // every rank has the same one
     return comm.rank() == 0 ? complain(e.what()) : kToldStatus;
   } catch (...) {

@@ -18,11 +18,15 @@
 #include "sculpt/distribute/cartesian.hpp"
 #include "sculpt/exo/rank_mesh.hpp"
 #include "sculpt/input/material_source.hpp"
+#include "sculpt/launch/launch.hpp"
+#include "sculpt/mesh/edit.hpp"
 #include "sculpt/pillow/pillow.hpp"
 #include "sculpt/pipeline/stages.hpp"
+#include "sculpt/quality/fidelity.hpp"
 #include "sculpt/smooth/smooth.hpp"
 #include "sculpt/smooth/volume_correction.hpp"
 #include "sculpt/vfrac/fractions.hpp"
+#include "sculpt/write/quality_file.hpp"
 #include "sculpt/write/side_sets.hpp"
 #include "sculpt/write/write_mesh.hpp"
 
@@ -113,6 +117,7 @@ void refuse_empty_mesh(const Comm& comm, const Overlay& overlay, const std::vect
 struct Contour {
   Interfaces faces;
   std::vector<Weight> weights;
+  std::vector<Vec3> placed;  // per interface node: where it was before the smoothing
 };
 
 Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stages) {
@@ -125,6 +130,7 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
   std::vector<Vec3> grid_position;
   for (const LocalId n : c.faces.nodes) grid_position.push_back(cells.position[static_cast<std::size_t>(n)]);
   place_nodes(cells, c.faces, crossings);
+  for (const LocalId n : c.faces.nodes) c.placed.push_back(cells.position[at(n)]);
   stages.end("contour");
   if (deck.smooth != kSmoothOff)
     smooth_interface(cells, c.faces, crossings, grid_position, interface_smoothing(deck, overlay.pure));
@@ -162,7 +168,7 @@ Contour stair_interfaces(Overlay& overlay, const std::vector<std::uint8_t>& drop
   log.line("(5/9) computing material interfaces...");
   for (std::size_t c = 0; c < drop.size(); ++c)
     if (drop[c]) overlay.cells.material[c] = -1;
-  return {trace_interfaces(overlay.cells, overlay.neighbours), {}};
+  return {trace_interfaces(overlay.cells, overlay.neighbours), {}, {}};
 }
 
 SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& overlay,
@@ -185,18 +191,23 @@ void correct_thickened_volumes(const Deck& deck, HexMesh& mesh, const Geometry& 
   stages.end("correct volumes");
 }
 
+struct Meshed {
+  HexMesh mesh;
+  SidePlan sides;
+  InterfaceTrack track;  // empty in a mesh that keeps the shape of the cells
+};
+
 // Hexes of the cells, without smoothing (stair) or with buffer layers and smoothing; and what their side sets
 // will be.
-HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
-                   const std::vector<double>& wanted_volumes, SidePlan& sides, const Log& log,
-                   Stages& stages) {
+Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
+                  const std::vector<double>& wanted_volumes, const Log& log, Stages& stages) {
   const std::vector<std::uint8_t> drop = unmeshed_cells(deck, overlay);
   refuse_empty_mesh(comm, overlay, drop);
   const bool stair = deck.stair != kStairOff;
   const Contour shape = stair ? stair_interfaces(overlay, drop, log) : contour(deck, overlay, log, stages);
   overlay.fractions = {};
   overlay.around.reset();
-  sides = generate_geometry(comm, deck, overlay, shape.faces, drop, log);
+  SidePlan sides = generate_geometry(comm, deck, overlay, shape.faces, drop, log);
   overlay.neighbours = {};
   stages.end("generate geometry");
   log.line("(7/9) generating buffer hexes...");
@@ -205,7 +216,7 @@ HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
     HexMesh mesh = pillow(comm, overlay.cells, std::vector<std::int32_t>(drop.size(), -1), drop, 0).mesh;
     stages.end("generate hexes");
     log.line("(9/9) begin smoothing...");
-    return mesh;
+    return {std::move(mesh), std::move(sides), {}};
   }
   std::vector<std::int32_t> label = overlay.cells.material;
   for (std::size_t c = 0; c < label.size(); ++c)
@@ -216,6 +227,7 @@ HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
     result = stacked(result, pillow(comm, result.mesh, surface_labels(result.mesh), keep, kSecondOffset));
   }
   const Geometry geometry = interface_geometry(result, overlay.cells, shape.faces, shape.weights);
+  InterfaceTrack track = interface_track(result, geometry, shape.faces, shape.placed);
   overlay.cells = {};
   stages.end("generate hexes");
   log.line("(9/9) begin smoothing...");
@@ -225,18 +237,79 @@ HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
   }
   stages.end("smooth volume");
   correct_thickened_volumes(deck, result.mesh, geometry, wanted_volumes, log, stages);
-  return std::move(result.mesh);
+  return {std::move(result.mesh), std::move(sides), std::move(track)};
 }
 
-WriteOptions write_options(const Deck& deck, const MaterialTable& materials) {
+// The faces of the mesh that belong to side sets.
+std::vector<SideFace> side_set_faces(const Deck& deck, const Meshed& meshed, const Log& log) {
+  if (deck.gen_sidesets != kSidesetsOff) log.line("building sidesets...");
+  const int pillows = deck.stair == kStairOff && surface_pillows(deck) ? 2 : 1;
+  return side_faces(meshed.sides, meshed.mesh, pillows);
+}
+
+// Takes hexes below remove_bad out of the mesh, and their faces out of the side sets.
+void remove_bad_hexes(const Comm& comm, const Deck& deck, const MaterialTable& materials, HexMesh& mesh,
+                      std::vector<SideFace>& faces, const Log& log) {
+  if (!deck.given("remove_bad")) return;
+  const std::vector<double> quality = scaled_jacobians(mesh);
+  std::vector<std::uint8_t> remove(quality.size());
+  std::vector<std::int64_t> removed(materials.block_id.size(), 0);
+  std::int64_t left = 0;
+  for (std::size_t h = 0; h < remove.size(); ++h) {
+    remove[h] = quality[h] < deck.remove_bad;
+    if (mesh.layer[h] == 0) ++(remove[h] ? removed[at(mesh.material[h])] : left);
+  }
+  comm.sum(removed);
+  print_removed(log, deck, materials, removed);
+  if (comm.sum(left) == 0)
+    throw Error(
+        fmt::format("remove_bad = {}: no hex of the mesh has a scaled Jacobian that large", deck.remove_bad));
+  if (std::all_of(removed.begin(), removed.end(), [](std::int64_t n) { return n == 0; })) return;
+  const std::vector<LocalId> index = remove_hexes(comm, mesh, remove);
+  std::erase_if(faces, [&](const SideFace& f) { return index[at(f.hex)] == kNone; });
+  for (SideFace& f : faces) f.hex = index[at(f.hex)];
+}
+
+// Everything that is told about the mesh in the end; displacement, input volumes and the like are known.
+QualityReport report_of(const Comm& comm, const Deck& deck, const MaterialTable& materials,
+                        const HexMesh& mesh, const std::vector<double>& input_volume,
+                        const Displacement& displacement) {
+  QualityReport report;
+  report.summary = summarise(comm, mesh);
+  report.kink = measure_kink(comm, mesh);
+  report.displacement = displacement;
+  report.cell_volume = mesh.cell_size.x * mesh.cell_size.y * mesh.cell_size.z;
+  const std::optional<std::int32_t> unmeshed = deck.mesh_void ? std::nullopt : materials.void_material;
+  report.volume_moved = volume_moved(report.summary, input_volume, unmeshed);
+  for (std::size_t m = 0; m < materials.block_id.size(); ++m) {
+    if (unmeshed == static_cast<std::int32_t>(m)) continue;
+    QualityReport::Block block{static_cast<std::int32_t>(m), materials.block_id[m], {}, input_volume[m]};
+    for (const IdName& n : deck.material_name)
+      if (n.id == block.id) block.name = n.name;
+    report.blocks.push_back(std::move(block));
+  }
+  return report;
+}
+
+// The exit status that require_quality asks for.
+int judge(const Deck& deck, const QualitySummary& quality, const Log& log) {
+  if (!deck.given("require_quality")) return 0;
+  if (quality.not_positive_inside == 0 && quality.least >= deck.require_quality) return 0;
+  log.line(
+      "WARNING: the mesh misses require_quality = {:g}: least scaled Jacobian {:f}, {} hexes not valid; "
+      "exit status {}",
+      deck.require_quality, quality.least, quality.not_positive_inside, kPoorMeshStatus);
+  return kPoorMeshStatus;
+}
+
+WriteOptions write_options(const Deck& deck, const MaterialTable& materials, const HexMesh& mesh) {
   WriteOptions w;
   w.base = deck.exodus_file;
   w.large = deck.large_exodus;
-  w.scale = {deck.scale * deck.xscale, deck.scale * deck.yscale, deck.scale * deck.zscale};
-  w.translate = {deck.xtranslate, deck.ytranslate, deck.ztranslate};
   w.block_id = materials.block_id;
   for (const IdName& n : deck.material_name) w.block_names[n.id] = n.name;
   for (const IdName& n : deck.sideset_name) w.side_set_names[n.id] = n.name;
+  if (deck.quality_variable) w.variables.push_back({"scaled_jacobian", scaled_jacobians(mesh)});
   return w;
 }
 
@@ -250,38 +323,46 @@ void check_names(const Deck& deck) {
 
 }  // namespace
 
-void run(const Comm& comm, const Deck& deck) {
+int run(const Comm& comm, const Deck& deck) {
   const Log log(comm.rank() == 0 && !deck.quiet);
   Stages stages;
   check_names(deck);
   check_output_folder(comm, deck.exodus_file);
+  const std::string quality_file = quality_file_name(deck);
+  if (!quality_file.empty()) check_output_file(comm, "quality", quality_file);
   Overlay overlay = read_overlay(comm, deck, log, stages);
   log.line("begin SCULPT meshing...");
   log.line("(1/9) computing normals...");
-  std::optional<VolumeTable> input_volumes;
-  if (deck.compare_volume) input_volumes.emplace(comm, overlay.cells, overlay.fractions, overlay.materials);
+  std::vector<double> input_volume =
+      input_volumes(comm, overlay.cells, overlay.fractions, overlay.materials.block_id.size());
   overlay.neighbours = face_neighbours(overlay.cells);
   const std::vector<double> wanted_volumes = classify(
       comm, deck, overlay.cells, overlay.fractions, overlay.materials, overlay.neighbours, overlay.around,
       [&] { return contoured_volumes(comm, deck, overlay); }, log, stages);
   const MaterialTable materials = overlay.materials;
-  SidePlan sides;
-  const HexMesh mesh = build_mesh(comm, deck, std::move(overlay), wanted_volumes, sides, log, stages);
+  input_volume.resize(materials.block_id.size(), 0);  // thicken_void may have added the void
+  Meshed meshed = build_mesh(comm, deck, std::move(overlay), wanted_volumes, log, stages);
 
   log.line("building exodus mesh...");
   log.line("generating global ids...");
-  const QualitySummary quality = summarise(comm, mesh);
+  HexMesh& mesh = meshed.mesh;
+  const Displacement moved = displacement(comm, mesh, meshed.track);
+  transform(mesh, {deck.scale * deck.xscale, deck.scale * deck.yscale, deck.scale * deck.zscale},
+            {deck.xtranslate, deck.ytranslate, deck.ztranslate});
+  std::vector<SideFace> faces = side_set_faces(deck, meshed, log);
+  remove_bad_hexes(comm, deck, materials, mesh, faces, log);
+  const QualityReport report = report_of(comm, deck, materials, mesh, input_volume, moved);
   stages.end("check quality");
-  if (deck.gen_sidesets != kSidesetsOff) log.line("building sidesets...");
-  const int pillows = deck.stair == kStairOff && surface_pillows(deck) ? 2 : 1;
-  const std::vector<SideFace> side_set_faces = side_faces(sides, mesh, pillows);
   if (comm.size() > 1) log.line("generating parallel communication maps...");
-  const WriteSummary written = write_mesh(comm, mesh, side_set_faces, write_options(deck, materials));
+  const WriteSummary written = write_mesh(comm, mesh, faces, write_options(deck, materials, mesh));
+  if (!quality_file.empty()) write_quality_file(comm, report, deck.exodus_file, quality_file);
   stages.end("write files");
-  if (input_volumes) input_volumes->compare(comm, mesh, log);
-  print_mesh_summary(comm, log, deck, written, quality);
+  if (deck.compare_volume) print_volumes(log, report);
+  print_mesh_summary(comm, log, deck, written, report);
+  const int status = judge(deck, report.summary, log);
   stages.print(comm, log, written.hexes);
   print_end(comm, log, stages.seconds());
+  return status;
 }
 
 }  // namespace sculpt

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "smooth/quality.hpp"
+#include "sculpt/geom/hex_quality.hpp"
 
 namespace sculpt {
 ActiveSet::ActiveSet(HexMesh& mesh)

@@ -8,7 +8,7 @@
 #include "sculpt/base/types.hpp"
 #include "sculpt/base/vec3.hpp"
 #include "sculpt/geom/hex.hpp"
-#include "smooth/lanes.hpp"
+#include "sculpt/geom/lanes.hpp"
 
 namespace sculpt {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "smooth/quality.hpp"
+#include "sculpt/geom/hex_quality.hpp"
 
 namespace sculpt {
 namespace {

@@ -35,6 +35,7 @@ class RankPart {
     number_nodes();
     add_side_sets(side_faces);
     if (comm_.size() > 1) add_element_maps();
+    add_variables();
     return std::move(out_);
   }
 
@@ -118,14 +119,11 @@ class RankPart {
   }
   void add_node(LocalId n, GlobalId number) {
     const Vec3& p = mesh_.position[at(n)];
-    out_.x.push_back(moved(p, 0));
-    out_.y.push_back(moved(p, 1));
-    out_.z.push_back(moved(p, 2));
+    out_.x.push_back(p.x);
+    out_.y.push_back(p.y);
+    out_.z.push_back(p.z);
     out_.node_id.push_back(number);
     file_node_[at(n)] = static_cast<LocalId>(out_.node_id.size());
-  }
-  [[nodiscard]] double moved(const Vec3& p, std::size_t d) const {
-    return options_.scale[d] * p[d] + options_.translate[d];
   }
 
   void add_blocks() {
@@ -228,6 +226,17 @@ class RankPart {
           .push_back(static_cast<std::int32_t>(i) + 1);
   }
 
+  void add_variables() {
+    if (options_.variables.empty()) return;
+    out_.times = {0};
+    for (const HexVariable& variable : options_.variables) {
+      out_.element_variables.push_back({variable.name, std::vector<std::uint8_t>(out_.blocks.size(), 1)});
+      std::vector<double>& values = out_.element_values.emplace_back();
+      values.reserve(file_hexes_.size());
+      for (const LocalId h : file_hexes_) values.push_back(variable.value[at(h)]);
+    }
+  }
+
   const Comm& comm_;
   const HexMesh& mesh_;
   const WriteOptions& options_;
@@ -256,24 +265,36 @@ WriteSummary write_mesh(const Comm& comm, const HexMesh& mesh, const std::vector
   return {part.global_nodes, part.global_hexes, part.blocks.size(), part.side_sets.size()};
 }
 
+namespace {
+
+// Local. Tries to write beside a file that is going to be written; `setting` begins the messages.
+void check_writable(const std::string& setting, const std::string& final_name) {
+  const auto folder = std::filesystem::path(final_name).parent_path();
+  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
+    throw Error(fmt::format("{}: {} is a file, expected a folder", setting, folder.string()));
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    throw Error(fmt::format("{}: the folder {} does not exist", setting, folder.string()));
+  if (std::filesystem::is_directory(final_name))
+    throw Error(fmt::format("{}: {} is a folder, expected to write a file there", setting, final_name));
+  const std::string probe = temporary_name(final_name);
+  std::FILE* file = std::fopen(probe.c_str(), "w");
+  if (file == nullptr)
+    throw Error(fmt::format("{}: cannot write {}: {}", setting, final_name, std::strerror(errno)));
+  std::fclose(file);
+  discard(probe);
+}
+
+}  // namespace
+
 void check_output_folder(const Comm& comm, const std::string& base) {
-  const std::string final_name = rank_file_name(base, comm.size(), comm.rank()),
-                    probe = temporary_name(final_name);
   collectively(comm, "checking the output folder", [&] {
-    const auto folder = std::filesystem::path(final_name).parent_path();
-    if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
-      throw Error(fmt::format("exodus_file = {}: {} is a file, expected a folder", base, folder.string()));
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-      throw Error(fmt::format("exodus_file = {}: the folder {} does not exist", base, folder.string()));
-    if (std::filesystem::is_directory(final_name))
-      throw Error(
-          fmt::format("exodus_file = {}: {} is a folder, expected to write a file there", base, final_name));
-    std::FILE* file = std::fopen(probe.c_str(), "w");
-    if (file == nullptr)
-      throw Error(
-          fmt::format("exodus_file = {}: cannot write {}: {}", base, final_name, std::strerror(errno)));
-    std::fclose(file);
-    discard(probe);
+    check_writable("exodus_file = " + base, rank_file_name(base, comm.size(), comm.rank()));
+  });
+}
+
+void check_output_file(const Comm& comm, const std::string& option, const std::string& file_name) {
+  collectively(comm, "checking " + file_name, [&] {
+    if (comm.rank() == 0) check_writable(option + " = " + file_name, file_name);
   });
 }
 

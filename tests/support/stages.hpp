@@ -8,6 +8,7 @@
 #include "sculpt/contour/interface_smoothing.hpp"
 #include "sculpt/filter/filter.hpp"
 #include "sculpt/mesh/hex_mesh.hpp"
+#include "sculpt/quality/summary.hpp"
 #include "sculpt/smooth/smooth.hpp"
 #include "support/cases.hpp"
 

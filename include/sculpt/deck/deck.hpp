@@ -1,7 +1,8 @@
 #pragma once
-// Deck: every option of a run, typed. One field per Sculpt 16.14 option, named as its long option name and
-// holding its default. The option table (options.hpp) says what each one means; the parser (parse.hpp) fills
-// it. Lengths are in the units of the input; enumerations hold Sculpt's numbers, named below.
+// Deck: every option of a run, typed. One field per Sculpt 16.14 option and per option of our own, named as
+// its long option name and holding its default. The option table (options.hpp) says what each one means; the
+// parser (parse.hpp) fills it. Lengths are in the units of the input; enumerations hold Sculpt's numbers,
+// named below.
 #include <array>
 #include <cstdint>
 #include <map>
@@ -162,7 +163,9 @@ struct Deck {
   std::string exodus_file;
   bool large_exodus = false;
   std::string volfrac_file;
-  std::string quality;
+  std::string quality;            // file name; "true": named after the mesh
+  bool quality_variable = false;  // ours
+  double require_quality = -1;    // ours; -1: nothing is required
   bool export_comm_maps = false;
   bool write_geom = false;
   bool write_mbg = false;

@@ -59,6 +59,13 @@ struct RankMesh {
     bool operator==(const ElementMap&) const = default;
   };
 
+  // A number per element and time step.
+  struct ElementVariable {
+    std::string name;
+    std::vector<std::uint8_t> in_block;  // per block: 1 = its elements have values
+    bool operator==(const ElementVariable&) const = default;
+  };
+
   std::string title;  // the writer cuts it to 80 characters
   int rank = 0, ranks = 1;
   std::int64_t global_nodes = 0, global_hexes = 0;
@@ -70,6 +77,12 @@ struct RankMesh {
   std::vector<Block> blocks;
   std::vector<SideSet> side_sets;
   std::vector<NodeSet> node_sets;
+
+  std::vector<double> times;  // of the steps; every rank has the same
+  std::vector<ElementVariable> element_variables;
+  // Step by step, in each variable by variable: a value per element in the order of hex_id, 0 where a block
+  // has none.
+  std::vector<std::vector<double>> element_values;
 
   // Nemesis data. With one rank all of it stays empty. With more, internal nodes are the local nodes
   // 1..internal_nodes, the border nodes (those of node_maps) follow; the two element lists share out all

@@ -33,8 +33,10 @@ class ExodusReader {
     std::int64_t nodes = 0, elements = 0;
     std::vector<Block> blocks;
     std::vector<Set> side_sets, node_sets;
-    int time_steps = 0;
-    bool nemesis = false;  // the file belongs to a parallel run; the next three come from its tables then
+    std::vector<double> times;  // of the steps
+    std::vector<RankMesh::ElementVariable> element_variables;
+    int other_variables = 0;  // global ones, and those of nodes and sets
+    bool nemesis = false;     // the file belongs to a parallel run; the next three come from its tables then
     int ranks = 1;
     std::int64_t global_nodes = 0, global_elements = 0;
     bool large = false;  // 64-bit integers on disk
@@ -56,6 +58,8 @@ class ExodusReader {
   // Local elements, from 1, and their sides, 1..6, of side_sets[s].
   void side_set(std::size_t s, std::vector<std::int32_t>& element, std::vector<std::int32_t>& side);
   [[nodiscard]] std::vector<std::int32_t> node_set(std::size_t s);
+  // A value per element of the file at a step, both from 0; 0 where a block has none.
+  [[nodiscard]] std::vector<double> element_values(std::size_t step, std::size_t variable);
   // The counts and maps of Nemesis; leaves `mesh` as it is when the file has none.
   void nemesis(RankMesh& mesh);
 
@@ -63,6 +67,7 @@ class ExodusReader {
   void read_header();
   void read_blocks();
   void read_sets();
+  void read_variables();
   void read_global();
 
   std::string path_;

@@ -55,9 +55,12 @@ struct LaunchPlan {
 // Exit status of a run whose message on stderr says what is wrong. mpiexec has other numbers for troubles of
 // its own.
 inline constexpr int kToldStatus = 2;
+// Exit status of a run that wrote a mesh which misses require_quality.
+inline constexpr int kPoorMeshStatus = 3;
 
 // Prints the announcement, sets the environment, runs mpiexec and waits for its end, passing signals on.
-// Returns 0 or kToldStatus. Error: mpiexec cannot be run, or the ranks ended without having said why.
+// Returns 0, kToldStatus or kPoorMeshStatus. Error: mpiexec cannot be run, or the ranks ended without having
+// said why.
 [[nodiscard]] int launch(const LaunchPlan& plan);
 
 // For a rank: empty, or what is wrong when -j was given and is not the number of ranks.

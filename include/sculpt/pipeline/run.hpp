@@ -8,9 +8,9 @@
 
 namespace sculpt {
 
-// Collective. Runs a validated deck; prints what real Sculpt prints. Throws AgreedError or Error on all ranks
-// alike.
-void run(const Comm& comm, const Deck& deck);
+// Collective. Runs a validated deck; prints what real Sculpt prints. Returns the exit status, 0 or
+// kPoorMeshStatus (launch.hpp), the same on all ranks. Throws AgreedError or Error on all ranks alike.
+int run(const Comm& comm, const Deck& deck);
 
 // The program: reads the command line and the deck (rank 0 reads, all agree), starts ranks if needed, runs.
 // Returns the exit status.

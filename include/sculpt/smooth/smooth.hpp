@@ -32,23 +32,8 @@ struct SmoothOptions {
       0.1;  // curve nodes of hexes below it may leave their curve; negative: held harder
 };
 
-// Scaled Jacobian and edge length over the hexes of all ranks; the same for any number of ranks, but for
-// least_rank.
-struct QualitySummary {
-  std::int64_t hexes = 0, not_positive = 0, below_02 = 0, below_03 = 0;
-  std::int64_t not_positive_inside = 0;  // hexes whose Jacobian is not positive everywhere, corners included
-  double least = 1, average = 1, shortest_edge = 0;
-  GlobalId least_hex = 0;  // id of the hex with the least value (ties: the smallest id)
-  Vec3 least_at;           // its centre
-  int least_rank = 0;      // its owner
-};
-
 // Collective. The mesh needs one ghost layer of hexes. Every hex ends with a positive Jacobian if any way to
 // it was found; what is left below the target is told by summarise().
 void smooth_mesh(HexMesh& mesh, const Geometry& geometry, const SmoothOptions& options, const Log& log);
-
-// Collective. The average is summed in whole units of 2^-40, so that it does not depend on the number of
-// ranks.
-[[nodiscard]] QualitySummary summarise(const Comm& comm, const HexMesh& mesh);
 
 }  // namespace sculpt

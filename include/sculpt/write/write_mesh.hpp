@@ -17,12 +17,18 @@ struct SideFace {
   std::int32_t face;  // kFaces index
 };
 
+// A number for every hex, in the files as an element variable at time 0.
+struct HexVariable {
+  std::string name;
+  std::vector<double> value;  // per local hex
+};
+
 struct WriteOptions {
-  std::string base;                         // files base.e.N.r
-  bool large = false;                       // 64-bit integers on disk
-  Vec3 scale{1, 1, 1}, translate{0, 0, 0};  // coordinates are scaled, then translated
-  std::vector<std::int64_t> block_id;       // of each dense material index
+  std::string base;                    // files base.e.N.r
+  bool large = false;                  // 64-bit integers on disk
+  std::vector<std::int64_t> block_id;  // of each dense material index
   std::map<std::int64_t, std::string> block_names, side_set_names;
+  std::vector<HexVariable> variables;
 };
 
 struct WriteSummary {
@@ -37,5 +43,7 @@ WriteSummary write_mesh(const Comm& comm, const HexMesh& mesh, const std::vector
 
 // Collective. Fails where a run could not write its files in the end, before any work is done.
 void check_output_folder(const Comm& comm, const std::string& base);
+// Collective. The same for a single file that an option names.
+void check_output_file(const Comm& comm, const std::string& option, const std::string& file_name);
 
 }  // namespace sculpt

@@ -13,6 +13,7 @@
 #include "sculpt/exo/merge_files.hpp"
 #include "sculpt/exo/read_exodus.hpp"
 #include "sculpt/exo/write_rank_file.hpp"
+#include "sculpt/write/quality_file.hpp"
 #include "support/stages.hpp"
 
 namespace sculpt::test {
@@ -216,25 +217,37 @@ TEST(WriteMesh, JoinsToTheFileOfOneRank) {
   comm.barrier();
 }
 
-TEST(WriteMesh, ScalesThenTranslates) {
+TEST(WriteMesh, WritesAVariableOfEveryHex) {
   const SharedFolder folder;
   const Comm comm = Comm::world();
-  const HexMesh mesh = overlay(comm, voxels({2, 2, 3}, std::vector<std::int32_t>(12, 0))).cells;
-  WriteOptions options = options_for(folder.file("moved"));
-  options.scale = {2, 0.5, -1};
-  options.translate = {10, 0, 1};
+  const HexMesh mesh = run_stages(comm, three_grains()).mesh;
+  WriteOptions options = options_for(folder.file("v"));
+  options.variables = {{"key", {}}, {"twice", {}}};
+  for (const GlobalId id : mesh.hex_id) {
+    options.variables[0].value.push_back(static_cast<double>(id));
+    options.variables[1].value.push_back(2 * static_cast<double>(id));
+  }
   (void)write_mesh(comm, mesh, {}, options);
-  Vec3 lo{1e9, 1e9, 1e9}, hi{-1e9, -1e9, -1e9};
-  for (const RankMesh& file : all_files(comm, folder.file("moved")))
-    for (std::size_t n = 0; n < file.x.size(); ++n) {
-      const Vec3 p{file.x[n], file.y[n], file.z[n]};
-      for (std::size_t d = 0; d < 3; ++d) {
-        lo[d] = std::min(lo[d], p[d]);
-        hi[d] = std::max(hi[d], p[d]);
-      }
+  std::map<std::int64_t, double> by_element;
+  for (const RankMesh& file : all_files(comm, folder.file("v"))) {
+    EXPECT_EQ(file.times, std::vector<double>{0});
+    ASSERT_EQ(file.element_variables.size(), 2U);
+    EXPECT_EQ(file.element_variables[1].name, "twice");
+    ASSERT_EQ(file.element_values.size(), 2U);
+    for (std::size_t e = 0; e < file.hex_id.size(); ++e) {
+      by_element[file.hex_id[e]] = file.element_values[0][e];
+      EXPECT_EQ(file.element_values[1][e], 2 * file.element_values[0][e]);
     }
-  EXPECT_EQ(lo, (Vec3{10, 0, -2}));
-  EXPECT_EQ(hi, (Vec3{14, 1, 1}));
+  }
+  // Elements are numbered block by block, in each ascending in key: the values of a block ascend.
+  std::set<double> distinct;
+  int falls = 0;
+  for (auto it = by_element.begin(); it != by_element.end(); ++it) {
+    distinct.insert(it->second);
+    if (it != by_element.begin()) falls += std::prev(it)->second > it->second;
+  }
+  EXPECT_EQ(distinct.size(), by_element.size());
+  EXPECT_LE(falls, 2) << "three blocks";
 }
 
 TEST(WriteMesh, RanksWithoutHexesWriteTheirFileAsWell) {
@@ -257,6 +270,19 @@ TEST(WriteMesh, LeavesNothingBehindWhenOneRankCannotWrite) {
   if (comm.rank() == comm.size() - 1) options.base = folder.file("no/such/folder/mesh");
   EXPECT_THROW((void)write_mesh(comm, mesh, {}, options), AgreedError);
   EXPECT_EQ(folder.files(), std::set<std::string>{});
+}
+
+TEST(WriteQualityFile, IsCompleteOrNotThere) {
+  const SharedFolder folder;
+  const Comm comm = Comm::world();
+  write_quality_file(comm, {}, "mesh", folder.file("q.json"));
+  write_quality_file(comm, {}, "mesh", folder.file("q.csv"));
+  EXPECT_EQ(folder.files(), (std::set<std::string>{"q.csv", "q.json"}));
+  if (comm.rank() == 0) fs::create_directory(folder.file("taken"));
+  EXPECT_THROW(write_quality_file(comm, {}, "mesh", folder.file("taken")), AgreedError);
+  EXPECT_THROW(write_quality_file(comm, {}, "mesh", folder.file("absent/q.csv")), AgreedError);
+  EXPECT_EQ(folder.files(), (std::set<std::string>{"q.csv", "q.json", "taken"}));
+  EXPECT_EQ(fs::file_size(folder.file("q.json")), quality_json({}, "mesh").size());
 }
 
 TEST(CheckOutputFolder, SaysBeforeTheWorkWhatWouldFailAfterIt) {

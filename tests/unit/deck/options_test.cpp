@@ -102,8 +102,9 @@ TEST(OptionTable, HoldsEveryOptionOfSculpt) {
   EXPECT_EQ(find_flag(""), nullptr);
   EXPECT_EQ(find_option("NelX")->name, "nelx");
   EXPECT_EQ(find_option("nelxx"), nullptr);
-  // 135 options of 16.14, the older scale, and help, mpi and cubit_launch
-  EXPECT_EQ(option_table().size(), 141u);
+  // 135 options of 16.14, the older scale, help, mpi and cubit_launch, and our own: quality_variable,
+  // require_quality, resolve_reversals and keep_materials
+  EXPECT_EQ(option_table().size(), 143u);
 }
 
 TEST(OptionTable, DefaultsAreSculptsExceptTheQualityFloor) {

@@ -59,8 +59,8 @@ scale = 40)"),
 TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
   EXPECT_EQ(verdict(kSpn + "pillow_curves = true"),
             "option 'pillow_curves' (line 6 of deck.i) is not supported yet");
-  EXPECT_EQ(verdict(kSpn + "remove_bad = 0.0"),
-            "option 'remove_bad' (line 6 of deck.i) is not supported yet");
+  EXPECT_EQ(verdict(kSpn + "volfrac_file = v"),
+            "option 'volfrac_file' (line 6 of deck.i) is not supported yet");
   EXPECT_EQ(verdict("stl_file = a.stl"), "option 'stl_file' (line 2 of deck.i) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "check_periodic = true"),
             "option 'check_periodic' (line 6 of deck.i) is not supported yet");

@@ -72,6 +72,46 @@ TEST(MergeFiles, GivesTheSameMeshForAnyNumberOfRanks) {
   }
 }
 
+// Variable "a" is 10 step + element, "b" is only in block 2.
+RankMesh with_variables(const std::vector<Cell>& cells, int rank, int ranks) {
+  RankMesh mesh = row_of_cubes(cells, rank, ranks);
+  mesh.times = {0, 0.5, 1.5};
+  mesh.element_variables = {{"a", {1, 1}}, {"b", {0, 1}}};
+  for (std::size_t step = 0; step < 3; ++step) {
+    std::vector<double> a, b;
+    for (const std::int64_t id : mesh.hex_id) {
+      a.push_back(10.0 * static_cast<double>(step) + static_cast<double>(id));
+      b.push_back(id > 2 ? -static_cast<double>(id) : 0);
+    }
+    mesh.element_values.push_back(a);
+    mesh.element_values.push_back(b);
+  }
+  return mesh;
+}
+
+TEST(MergeFiles, JoinsElementVariablesAtAllTimes) {
+  const TemporaryFolder folder;
+  // Elements 1 and 2 are in block 1, elements 3 and 4 in block 2, which rank 0 does not have; rank 2 is
+  // empty.
+  const std::vector<Cell> cells{{2, 1}, {1, 0}, {2, 1}, {1, 1}};
+  for (int r = 0; r < 3; ++r)
+    write_rank_file(rank_file_name(folder.file("m"), 3, r), with_variables(cells, r, 3));
+  const MergeResult result = merge_files(folder.file("m"), 3);
+  EXPECT_EQ(result.element_variables, 2U);
+  EXPECT_EQ(result.time_steps, 3U);
+  EXPECT_EQ(result.dropped_variables, 0);
+  const RankMesh mesh = read_exodus(folder.file("m.e"));
+  EXPECT_EQ(mesh.times, (std::vector<double>{0, 0.5, 1.5}));
+  ASSERT_EQ(mesh.element_variables.size(), 2U);
+  EXPECT_EQ(mesh.element_variables[0].name, "a");
+  EXPECT_EQ(mesh.element_variables[0].in_block, (std::vector<std::uint8_t>{1, 1}));
+  EXPECT_EQ(mesh.element_variables[1].in_block, (std::vector<std::uint8_t>{0, 1}));
+  ASSERT_EQ(mesh.element_values.size(), 6U);
+  EXPECT_EQ(mesh.element_values[0], (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(mesh.element_values[4], (std::vector<double>{21, 22, 23, 24}));
+  EXPECT_EQ(mesh.element_values[5], (std::vector<double>{0, 0, -3, -4}));
+}
+
 TEST(MergeFiles, KeepsIdsThatAreNotConsecutive) {
   const TemporaryFolder folder;
   for (int r = 0; r < 2; ++r) {
@@ -189,6 +229,18 @@ TEST_F(FailedMerge, NoticesABlockThatIsLeftOut) {
   mesh.blocks.pop_back();
   replace_rank(1, mesh);
   expect_refusal("m.e.3.1' has 1 blocks, expected 2");
+}
+
+TEST_F(FailedMerge, NoticesOtherTimesAndVariables) {
+  for (int r = 0; r < 3; ++r) replace_rank(r, with_variables(cells_, r, 3));
+  RankMesh mesh = with_variables(cells_, 1, 3);
+  mesh.times[2] = 7;
+  replace_rank(1, mesh);
+  expect_refusal("m.e.3.1' has 3 time steps");
+  mesh = with_variables(cells_, 1, 3);
+  mesh.element_variables[1].name = "c";
+  replace_rank(1, mesh);
+  expect_refusal("m.e.3.1' has other element variables than");
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 namespace sculpt {
 namespace {
 
+using test::Cell;
 using test::row_of_cubes;
 using test::TemporaryFolder;
 
@@ -100,6 +101,38 @@ TEST(WriteRankFile, ReadsBackThousandsOfBlocksAndSets) {
   }
   mesh.global_hexes = 2000;
   expect_identity(mesh);
+}
+
+// Two variables at two times; the second one has no values in block 7.
+RankMesh with_variables(const std::vector<Cell>& cells, int rank, int ranks) {
+  RankMesh mesh = row_of_cubes(cells, rank, ranks);
+  mesh.times = {0, 2.5};
+  mesh.element_variables = {{"quality", {1, 1}}, {std::string(40, 'v'), {1, 0}}};
+  for (const double step : {100.0, 200.0})
+    for (int v = 0; v < 2; ++v) {
+      auto& values = mesh.element_values.emplace_back();
+      for (const std::int64_t id : mesh.hex_id)
+        values.push_back(v == 0 || id < 3 ? step + 10.0 * v + static_cast<double>(id) : 0);
+    }
+  return mesh;
+}
+
+TEST(WriteRankFile, ReadsBackElementVariables) {
+  expect_identity(with_variables({{1, 0}, {7, 0}, {1, 0}}, 0, 1));
+  expect_identity(with_variables({{1, 0}, {7, 1}, {1, 0}, {7, 0}}, 0, 2));
+}
+
+TEST(WriteRankFile, RefusesVariablesWithoutValues) {
+  const TemporaryFolder folder;
+  RankMesh mesh = with_variables({{1, 0}, {7, 0}, {1, 0}}, 0, 1);
+  mesh.element_values.back().pop_back();
+  EXPECT_THROW(write_rank_file(folder.file("m"), mesh), BrokenPromise);
+  mesh.element_values.pop_back();
+  EXPECT_THROW(write_rank_file(folder.file("m"), mesh), BrokenPromise);
+  mesh = with_variables({{1, 0}, {7, 0}, {1, 0}}, 0, 1);
+  mesh.element_variables[1].in_block.pop_back();
+  EXPECT_THROW(write_rank_file(folder.file("m"), mesh), BrokenPromise);
+  EXPECT_TRUE(folder.files().empty());
 }
 
 TEST(WriteRankFile, CutsALongTitle) {

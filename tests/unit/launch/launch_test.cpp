@@ -191,6 +191,8 @@ TEST(Launch, ReturnsTheStatusOfRanksThatSaidWhy) {
   EXPECT_EQ(complaint(plan_of("exit 0")), "status 0");
   EXPECT_EQ(complaint(plan_of("exit " + std::to_string(kToldStatus))),
             "status " + std::to_string(kToldStatus));
+  EXPECT_EQ(complaint(plan_of("exit " + std::to_string(kPoorMeshStatus))),
+            "status " + std::to_string(kPoorMeshStatus));
 }
 
 TEST(Launch, SpeaksUpWhenTheRanksEndedWithoutAWord) {

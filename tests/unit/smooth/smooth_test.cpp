@@ -76,34 +76,5 @@ TEST(SmoothMesh, KeepsABallRound) {
   EXPECT_NEAR(test::volumes(mesh, 2)[1], 4.0 / 3 * std::acos(-1.0) * 64, 0.03 * 268);
 }
 
-TEST(Summarise, CountsByHand) {
-  HexMesh mesh = lattice({2, 1, 1});
-  QualitySummary s = summarise(Comm::self(), mesh);
-  EXPECT_EQ(s.hexes, 2);
-  EXPECT_EQ(s.not_positive, 0);
-  EXPECT_NEAR(s.least, 1, 1e-15);
-  EXPECT_NEAR(s.average, 1, 1e-12);
-  EXPECT_NEAR(s.shortest_edge, 1, 1e-15);
-  // Shear the second cell: its far side sinks by 3, so the angle's cosine is 3 / sqrt(10).
-  for (std::size_t n = 0; n < mesh.position.size(); ++n)
-    if (mesh.box_sides[n] & kXmax) mesh.position[n].y -= 3;
-  s = summarise(Comm::self(), mesh);
-  const double sheared = 1 / std::sqrt(10.0);
-  EXPECT_NEAR(s.least, sheared, 1e-12);
-  EXPECT_NEAR(s.average, (1 + sheared) / 2, 1e-11);
-  EXPECT_EQ(s.least_hex, 1);
-  EXPECT_NEAR(norm(s.least_at - Vec3{1.6, -4, 7.5}), 0, 1e-12);
-  EXPECT_EQ(s.below_03, 0);
-  // Turn it inside out.
-  for (std::size_t n = 0; n < mesh.position.size(); ++n)
-    if (mesh.box_sides[n] & kXmax) mesh.position[n] += Vec3{-1.5, 3, 0};
-  s = summarise(Comm::self(), mesh);
-  EXPECT_EQ(s.not_positive, 1);
-  EXPECT_EQ(s.below_02, 1);
-  EXPECT_EQ(s.below_03, 1);
-  EXPECT_NEAR(s.least, -1, 1e-12);
-  EXPECT_EQ(s.not_positive_inside, 1);
-}
-
 }  // namespace
 }  // namespace sculpt

@@ -1,5 +1,5 @@
 #pragma once
-// Scaled Jacobians of many hexes at once. Pure.
+// Scaled Jacobians, edges and volumes of many hexes at once. Pure.
 #include <array>
 #include <span>
 #include <vector>
@@ -20,5 +20,12 @@ struct HexQuality {
 // rounding.
 [[nodiscard]] HexQuality quality_of(const std::vector<Hex>& hexes, const std::vector<Vec3>& position,
                                     std::span<const LocalId> which);
+
+struct HexSize {
+  std::array<double, 8> volume, shortest_edge;
+};
+// Likewise, with every coordinate multiplied by `unit` of its axis. Agrees with hex_volume() up to rounding.
+[[nodiscard]] HexSize size_of(const std::vector<Hex>& hexes, const std::vector<Vec3>& position,
+                              std::span<const LocalId> which, const Vec3& unit);
 
 }  // namespace sculpt

@@ -1,22 +1,16 @@
-#include "smooth/quality.hpp"
+#include "sculpt/geom/hex_quality.hpp"
 
 #include <limits>
 
-#include "smooth/lanes.hpp"
+#include "geom/load_corners.hpp"
 
 namespace sculpt {
 namespace {
 
 SCULPT_KERNEL void measure(const Hex* hexes, const Vec3* position, const LocalId* which, std::size_t count,
                            HexQuality& out) {
-  Vec3Lanes corner[8];
-  for (std::size_t c = 0; c < 8; ++c) {
-    const Vec3* p[8];
-    for (std::size_t l = 0; l < 8; ++l) p[l] = position + hexes[which[l < count ? l : 0]][c];
-    corner[c] = {Lanes{p[0]->x, p[1]->x, p[2]->x, p[3]->x, p[4]->x, p[5]->x, p[6]->x, p[7]->x},
-                 Lanes{p[0]->y, p[1]->y, p[2]->y, p[3]->y, p[4]->y, p[5]->y, p[6]->y, p[7]->y},
-                 Lanes{p[0]->z, p[1]->z, p[2]->z, p[3]->z, p[4]->z, p[5]->z, p[6]->z, p[7]->z}};
-  }
+  Corners corner;
+  load(hexes, position, which, count, corner);
   Lanes worst = splat(2), shortest = splat(std::numeric_limits<double>::infinity());
   for (std::size_t c = 0; c < 8; ++c) {
     const auto& n = kCornerNeighbours[c];

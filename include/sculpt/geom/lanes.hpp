@@ -8,6 +8,7 @@
 #define SCULPT_KERNEL
 #endif
 #define SCULPT_INLINE inline __attribute__((always_inline))
+#pragma GCC diagnostic ignored "-Wpsabi"  // everything is inlined, so it does not matter how lanes are passed
 
 namespace sculpt {
 
@@ -35,6 +36,9 @@ struct Vec3Lanes {
 };
 SCULPT_INLINE Vec3Lanes operator-(const Vec3Lanes& a, const Vec3Lanes& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+SCULPT_INLINE Vec3Lanes operator+(const Vec3Lanes& a, const Vec3Lanes& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 SCULPT_INLINE Lanes dot(const Vec3Lanes& a, const Vec3Lanes& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 SCULPT_INLINE Vec3Lanes cross(const Vec3Lanes& a, const Vec3Lanes& b) {

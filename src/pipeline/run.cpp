@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <ctime>
+#include <functional>
 #include <limits>
 #include <optional>
 
 #include "pipeline/console.hpp"
-#include "pipeline/interface_geometry.hpp"
+#include "pipeline/layers.hpp"
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/contour.hpp"
@@ -27,8 +28,6 @@
 namespace sculpt {
 namespace {
 
-constexpr double kFirstOffset = 0.3, kSecondOffset = 0.5;  // of pillow copies towards the inside
-
 // The overlay mesh with its materials, and its adjacency for the stages that work on it.
 struct Overlay {
   HexMesh cells;
@@ -39,8 +38,6 @@ struct Overlay {
   Index3 grid{0, 0, 0};  // cells per axis, all ranks
   bool pure = true;      // on all ranks every cell holds one material only
 };
-
-bool surface_pillows(const Deck& deck) { return deck.pillow_surfaces || deck.pillow == kPillowSurfaces; }
 
 // The source's grid with the expansion layers around it.
 Grid overlay_grid(const Deck& deck, const Grid& source) {
@@ -60,7 +57,7 @@ Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages&
   const Grid grid = overlay_grid(deck, source->grid());
   const CartesianParts parts = cut_grid(grid.cells, comm.size(), {deck.iproc, deck.jproc, deck.kproc});
   print_decomposition(log, parts);
-  const int layers = surface_pillows(deck) ? 3 : 2;
+  const int layers = layer_plan(deck).ghost_layers();
 
   std::vector<IndexBox> wanted;
   for (int r = 0; r < comm.size(); ++r)
@@ -176,10 +173,54 @@ SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& ov
                         deck.gen_sidesets);
 }
 
-// Hexes of the cells, without smoothing (stair) or with buffer layers and smoothing; and what their side sets
-// will be.
-HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, SidePlan& sides, const Log& log,
-                   Stages& stages) {
+// The final mesh; pillows: how often pillow() was called.
+struct Meshed {
+  HexMesh mesh;
+  int pillows = 1;
+};
+
+// The hexes of the cells as they are, without what is left out.
+Meshed stair_mesh(const Comm& comm, const Deck& deck, const Overlay& overlay,
+                  const std::vector<std::uint8_t>& drop, const Log& log, Stages& stages) {
+  if (layer_plan(deck).any())
+    log.line("WARNING: stair keeps the cells as they are; the pillow options have no effect");
+  const std::vector<std::int32_t> none(drop.size(), -1);
+  HexMesh mesh = pillow(comm, overlay.cells, overlay.neighbours, none, drop, {}).mesh;
+  stages.end("generate hexes");
+  log.line("(9/9) begin smoothing...");
+  return {std::move(mesh), 1};
+}
+
+Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, const Contour& shape,
+                    const std::vector<std::uint8_t>& drop, const Log& log, Stages& stages) {
+  const LayerPlan plan = layer_plan(deck);
+  LayeredMesh layered =
+      add_layers(comm, overlay.cells, overlay.neighbours, drop, shape.faces, shape.weights, plan, log);
+  overlay.cells = {};
+  overlay.neighbours = {};
+  stages.end("generate hexes");
+  log.line("(9/9) begin smoothing...");
+  const auto smooth = [&](LayeredMesh& l) {
+    smooth_mesh(l.mesh, l.geometry, smooth_options(deck, overlay.pure), log);
+  };
+  const bool smooths = deck.smooth != kSmoothOff;
+  // Curves are judged after the smoothing, so that with curve pillows only the smoothing after those is off.
+  if (smooths && (plan.smooth_after || plan.curves)) {
+    print_smoothing_banner(log, deck);
+    smooth(layered);
+  }
+  stages.end("smooth volume");
+  if (plan.curves) {
+    add_curve_layers(comm, layered, plan,
+                     smooths && plan.smooth_after ? smooth : std::function<void(LayeredMesh&)>{}, log);
+    stages.end("pillow curves");
+  }
+  return {std::move(layered.mesh), layered.pillows};
+}
+
+// The hexes of the result, and what their side sets will be.
+Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, SidePlan& sides, const Log& log,
+                  Stages& stages) {
   const std::vector<std::uint8_t> drop = unmeshed_cells(deck, overlay);
   refuse_empty_mesh(comm, overlay, drop);
   const bool stair = deck.stair != kStairOff;
@@ -187,34 +228,11 @@ HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, SidePlan
   overlay.fractions = {};
   overlay.around.reset();
   sides = generate_geometry(comm, deck, overlay, shape.faces, drop, log);
-  overlay.neighbours = {};
   stages.end("generate geometry");
   log.line("(7/9) generating buffer hexes...");
   log.line("(8/9) generating interior hexes...");
-  if (stair) {
-    HexMesh mesh = pillow(comm, overlay.cells, std::vector<std::int32_t>(drop.size(), -1), drop, 0).mesh;
-    stages.end("generate hexes");
-    log.line("(9/9) begin smoothing...");
-    return mesh;
-  }
-  std::vector<std::int32_t> label = overlay.cells.material;
-  for (std::size_t c = 0; c < label.size(); ++c)
-    if (drop[c]) label[c] = -1;
-  Pillowed result = pillow(comm, overlay.cells, label, drop, kFirstOffset);
-  if (surface_pillows(deck)) {
-    const std::vector<std::uint8_t> keep(result.mesh.hexes.size(), 0);
-    result = stacked(result, pillow(comm, result.mesh, surface_labels(result.mesh), keep, kSecondOffset));
-  }
-  const Geometry geometry = interface_geometry(result, overlay.cells, shape.faces, shape.weights);
-  overlay.cells = {};
-  stages.end("generate hexes");
-  log.line("(9/9) begin smoothing...");
-  if (deck.smooth != kSmoothOff) {
-    print_smoothing_banner(log, deck);
-    smooth_mesh(result.mesh, geometry, smooth_options(deck, overlay.pure), log);
-  }
-  stages.end("smooth volume");
-  return std::move(result.mesh);
+  return stair ? stair_mesh(comm, deck, overlay, drop, log, stages)
+               : layered_mesh(comm, deck, overlay, shape, drop, log, stages);
 }
 
 WriteOptions write_options(const Deck& deck, const MaterialTable& materials) {
@@ -252,15 +270,15 @@ void run(const Comm& comm, const Deck& deck) {
   if (deck.compare_volume) input_volumes.emplace(comm, overlay.cells, overlay.fractions, materials);
   classify(comm, deck, overlay, log, stages);
   SidePlan sides;
-  const HexMesh mesh = build_mesh(comm, deck, std::move(overlay), sides, log, stages);
+  const Meshed built = build_mesh(comm, deck, std::move(overlay), sides, log, stages);
+  const HexMesh& mesh = built.mesh;
 
   log.line("building exodus mesh...");
   log.line("generating global ids...");
   const QualitySummary quality = summarise(comm, mesh);
   stages.end("check quality");
   if (deck.gen_sidesets != kSidesetsOff) log.line("building sidesets...");
-  const int pillows = deck.stair == kStairOff && surface_pillows(deck) ? 2 : 1;
-  const std::vector<SideFace> side_set_faces = side_faces(sides, mesh, pillows);
+  const std::vector<SideFace> side_set_faces = side_faces(sides, mesh, built.pillows);
   if (comm.size() > 1) log.line("generating parallel communication maps...");
   const WriteSummary written = write_mesh(comm, mesh, side_set_faces, write_options(deck, materials));
   stages.end("write files");

@@ -303,7 +303,9 @@ class Pillower {
         auto& of_old = out[at(start_[at(h)])][static_cast<std::size_t>(f)];
         if (!wrapped(h, f)) {
           const LocalId other = neighbours_[at(h)][static_cast<std::size_t>(f)];
-          of_old = other == kNone ? kNone : start_[at(other)];
+          of_old = other == kNone                       ? kNone
+                   : label_[at(other)] == label_[at(h)] ? start_[at(other)]
+                                                        : beyond({h, f});
           continue;
         }
         of_old = on_face({h, f});
@@ -321,7 +323,7 @@ class Pillower {
     const unsigned before = wrapped_[at(face.hex)] & ((1U << face.face) - 1);
     return start_[at(face.hex)] + 1 + std::popcount(before);
   }
-  // What a new hex meets where the old face was.
+  // What lies beyond an old face.
   [[nodiscard]] LocalId beyond(HexFace face) const {
     const HexFace there = other_side(mesh_, neighbours_, face);
     if (there.hex == kNone) return kNone;

@@ -90,7 +90,7 @@ TEST(AnyInput, GivesASoundMeshWithSurfacePillows) {
   for (std::uint64_t n = 0; n < kCases; n += 4) {
     const Case input = random_case(n);
     StageOptions options;
-    options.pillow_surfaces = true;
+    options.layers.surfaces = true;
     const StagesResult result = run_stages(Comm::self(), input, options);
     expect_sound(input, result, 2);
     EXPECT_EQ(boundary_problem(result.mesh), "") << input.name;

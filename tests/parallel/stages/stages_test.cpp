@@ -53,7 +53,7 @@ TEST(SameMesh, WithoutTheVoid) {
 
 TEST(SameMesh, WithSurfacePillows) {
   StageOptions options;
-  options.pillow_surfaces = true;
+  options.layers.surfaces = true;
   expect_same_alone_and_together(grains({10, 9, 8}, 12, 5, 7), options);
 }
 

@@ -14,8 +14,13 @@ namespace sculpt {
 namespace {
 
 Pillowed pillowed(const HexMesh& cells, double offset = 0.3) {
-  const std::vector<std::uint8_t> keep(cells.hexes.size(), 0);
-  return pillow(Comm::self(), cells, cells.material, keep, offset);
+  return pillow(Comm::self(), cells, face_neighbours(cells), cells.material, {},
+                {.offset = offset, .with_neighbours = true});
+}
+
+Pillowed surface_pillowed(const Pillowed& first) {
+  return pillow(Comm::self(), first.mesh, first.neighbours, surface_labels(first.mesh, first.neighbours), {},
+                {.offset = 0.5, .with_neighbours = true});
 }
 
 std::int64_t quads(const HexMesh& cells) {
@@ -73,6 +78,8 @@ void expect_pillowed_well(const test::Case& input) {
   EXPECT_EQ(p.mesh.size(), o.cells.size() + 2 * faces) << input.name;
   EXPECT_EQ(test::interface_faces(p.mesh), faces) << input.name;
   EXPECT_EQ(test::conformity_problem(p.mesh), "") << input.name;
+  EXPECT_EQ(p.neighbours, face_neighbours(p.mesh)) << input.name;
+  EXPECT_TRUE(p.on_interface.empty()) << input.name;
   EXPECT_EQ(test::boundary_problem(p.mesh), "") << input.name;
   EXPECT_EQ(test::box_problem(p.mesh, input.grid), "") << input.name;
   EXPECT_NEAR(test::volume(p.mesh) / test::volume(input.grid), 1, 1e-12) << input.name;
@@ -131,8 +138,10 @@ TEST(Pillow, WithoutTheVoidHasOneLayerAtItsSurface) {
     else
       ++kept;
   }
-  const Pillowed p = pillow(Comm::self(), o.cells, label, drop, 0.3);
+  const Pillowed p =
+      pillow(Comm::self(), o.cells, face_neighbours(o.cells), label, drop, {.with_neighbours = true});
   EXPECT_EQ(p.mesh.size(), kept + quads(o.cells));
+  EXPECT_EQ(p.neighbours, face_neighbours(p.mesh));
   EXPECT_EQ(test::conformity_problem(p.mesh), "");
   EXPECT_TRUE(
       std::all_of(p.mesh.material.begin(), p.mesh.material.end(), [](std::int32_t m) { return m == 1; }));
@@ -144,11 +153,11 @@ TEST(SurfacePillow, AddsASecondLayerAtEveryInterface) {
     const test::Overlay o = test::filtered(input);
     const std::int64_t faces = quads(o.cells);
     const Pillowed first = pillowed(o.cells);
-    const std::vector<std::int32_t> label = surface_labels(first.mesh);
+    const std::vector<std::int32_t> label = surface_labels(first.mesh, first.neighbours);
     EXPECT_EQ(std::count_if(label.begin(), label.end(), [](std::int32_t l) { return l >= 0; }), 2 * faces)
         << input.name;
-    const std::vector<std::uint8_t> keep(first.mesh.hexes.size(), 0);
-    const Pillowed second = pillow(Comm::self(), first.mesh, label, keep, 0.5);
+    const Pillowed second = surface_pillowed(first);
+    EXPECT_EQ(second.neighbours, face_neighbours(second.mesh)) << input.name;
     EXPECT_EQ(test::conformity_problem(second.mesh, 2), "") << input.name;
     EXPECT_EQ(test::boundary_problem(second.mesh), "") << input.name;
     EXPECT_EQ(test::box_problem(second.mesh, input.grid), "") << input.name;
@@ -162,10 +171,10 @@ TEST(SurfacePillow, AddsASecondLayerAtEveryInterface) {
 
 TEST(SurfaceLabels, NameTheSurfaceOnBothSidesAlike) {
   const test::Overlay o = test::overlay(test::voxels({3, 1, 1}, {0, 1, 2}));
-  const HexMesh mesh = pillowed(o.cells).mesh;
-  ASSERT_EQ(mesh.size(), 3 + 4);
+  const Pillowed p = pillowed(o.cells);
+  ASSERT_EQ(p.mesh.size(), 3 + 4);
   std::map<std::int32_t, int> count;
-  for (const std::int32_t l : surface_labels(mesh)) ++count[l];
+  for (const std::int32_t l : surface_labels(p.mesh, p.neighbours)) ++count[l];
   EXPECT_EQ(count[-1], 3) << "the cells themselves";
   ASSERT_EQ(count.size(), 3U) << "0 to 1 and 1 to 2";
   EXPECT_EQ(count.rbegin()->second, 2);

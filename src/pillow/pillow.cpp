@@ -70,15 +70,12 @@ class Pillower {
       for (int f = 0; f < 6; ++f) {
         const LocalId other = neighbours_[at(h)][static_cast<std::size_t>(f)];
         const bool wrap = other != kNone ? label_[at(other)] != label_[at(h)]
-                                         : rules_.box_sides != 0 && (wrapped_sides(h, f) != 0);
+                                         : (rules_.box_sides & face_sides(mesh_, h, f)) != 0;
         if (!wrap) continue;
         wrapped_[at(h)] |= static_cast<std::uint8_t>(1 << f);
         for (const LocalId n : face_nodes(mesh_, {h, f})) on_boundary_[at(n)] = 1;
       }
     }
-  }
-  [[nodiscard]] std::uint8_t wrapped_sides(LocalId h, int face) const {
-    return face_sides(mesh_, h, face) & rules_.box_sides;
   }
 
   void add_node(LocalId from, GlobalId copy, const Vec3& position, std::uint8_t sides) {
@@ -119,15 +116,13 @@ class Pillower {
       done_[first] = 1;
       group_.assign(1, items[first]);
       bool wanted = false;
-      std::uint8_t sides = mesh_.box_sides[at(node)];
+      std::uint8_t sides = 0;  // those that the group keeps a face on
       for (std::size_t g = 0; g < group_.size(); ++g) {
         const LocalId h = group_[g] / 8;
         for (const int f : kCornerFaces[static_cast<std::size_t>(group_[g] % 8)]) {
           const LocalId other = neighbours_[at(h)][static_cast<std::size_t>(f)];
-          if (wrapped(h, f)) {
-            wanted = true;
-            if (other == kNone) sides &= static_cast<std::uint8_t>(~wrapped_sides(h, f));
-          }
+          wanted = wanted || wrapped(h, f);
+          if (other == kNone && !wrapped(h, f)) sides |= face_sides(mesh_, h, f);
           if (other == kNone || label_[at(other)] != label_[at(h)]) continue;
           for (std::size_t i = 0; i < items.size(); ++i)
             if (!done_[i] && items[i] / 8 == other) {

@@ -1,5 +1,6 @@
 // The set of hexes that a curve pillow wraps.
 #include <algorithm>
+#include <bit>
 
 #include "pillow/edge_walk.hpp"
 #include "sculpt/mesh/adjacency.hpp"
@@ -177,11 +178,12 @@ class CurveSetFinder {
 
   // Goes from each face of the set's boundary at the node to the next, around their edges within the set:
   // at most one interface lies between two, none before a face without a hex beyond, and a material that was
-  // left does not come again.
+  // left does not come again. No hex gets two faces on one surface, or two edges on one edge of the box.
   [[nodiscard]] bool cuts_interfaces(LocalId node, std::span<const std::int32_t> items) {
     materials_.clear();
-    std::size_t changes = 0;
+    int changes = 0;
     bool open = false;
+    const unsigned kept_sides = sides_of_set(items);
     for (const std::int32_t item : items) {
       const LocalId h = item / 8;
       if (!in(h)) continue;
@@ -191,34 +193,56 @@ class CurveSetFinder {
         materials_.push_back(mesh_.material[at(h)]);
         const auto nodes = face_nodes(mesh_, {h, f});
         const auto i = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
-        for (const LocalId end : {nodes[(i + 1) % 4], nodes[(i + 3) % 4]}) {
-          const Way way = way_around({h, f}, node, end);
-          if (way.interfaces > (way.open ? 0 : 1)) return false;
-          open = open || way.open;
-          changes += static_cast<std::size_t>(way.interfaces);
-        }
+        const LocalId one = nodes[(i + 1) % 4], two = nodes[(i + 3) % 4];
+        const Way a = way_around({h, f}, node, one), b = way_around({h, f}, node, two);
+        if (!is_cut(a) || !is_cut(b) || meet_one_surface(a, b)) return false;
+        for (const auto& [way, end] : {std::pair{a, one}, std::pair{b, two}})
+          if (way.open != 0 &&
+              std::popcount(kept_sides & mesh_.box_sides[at(node)] & mesh_.box_sides[at(end)]) > 1)
+            return false;
+        open = open || a.open != 0 || b.open != 0;
+        changes += a.interfaces + b.interfaces;
       }
     }
     std::sort(materials_.begin(), materials_.end());
-    const auto distinct =
-        static_cast<std::size_t>(std::unique(materials_.begin(), materials_.end()) - materials_.begin());
-    const std::size_t places = changes / 2;  // each was met from both its ends
-    return places == (open || distinct == 1 ? distinct - 1 : distinct);
+    const auto distinct = std::unique(materials_.begin(), materials_.end()) - materials_.begin();
+    // Each change was met from both its ends.
+    return changes / 2 == (open || distinct == 1 ? distinct - 1 : distinct);
   }
 
   struct Way {
-    int interfaces;
-    bool open;  // ends at a face without a hex beyond
+    int interfaces;  // on the way
+    unsigned open;   // sides of the face without a hex beyond that ends it; 0 = at a face of the boundary
+    std::int32_t material;  // of the last hex
   };
+  static constexpr unsigned kNoBox = 0x40;  // stands for the sides of a face inside the box
+
   [[nodiscard]] Way way_around(HexFace from, LocalId a, LocalId b) const {
     int interfaces = 0;
     for (HexFace face = across_edge(mesh_, from, a, b);; face = across_edge(mesh_, face, a, b)) {
       const HexFace next = other_side(mesh_, neighbours_, face);
-      if (next.hex == kNone) return {interfaces, true};
-      if (!in(next.hex)) return {interfaces, false};
+      if (next.hex == kNone) {
+        const unsigned sides = face_sides(mesh_, face.hex, face.face);
+        return {interfaces, sides != 0 ? sides : kNoBox, mesh_.material[at(face.hex)]};
+      }
+      if (!in(next.hex)) return {interfaces, 0, mesh_.material[at(face.hex)]};
       interfaces += mesh_.material[at(next.hex)] != mesh_.material[at(face.hex)];
       face = next;
     }
+  }
+  [[nodiscard]] static bool is_cut(const Way& way) { return way.interfaces <= (way.open != 0 ? 0 : 1); }
+  // Whether the hex on a boundary face would have two faces on one surface.
+  [[nodiscard]] static bool meet_one_surface(const Way& a, const Way& b) {
+    return (a.open & b.open) != 0 || (a.interfaces == 1 && b.interfaces == 1 && a.material == b.material);
+  }
+  // The sides of the box on which hexes of the set have faces at a node.
+  [[nodiscard]] unsigned sides_of_set(std::span<const std::int32_t> items) const {
+    unsigned sides = 0;
+    for (const std::int32_t item : items)
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)])
+        if (in(item / 8) && neighbours_[at(item / 8)][static_cast<std::size_t>(f)] == kNone)
+          sides |= face_sides(mesh_, item / 8, f);
+    return sides;
   }
 
   const Comm& comm_;

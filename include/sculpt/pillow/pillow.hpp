@@ -35,8 +35,9 @@ struct Pillowed {
 // not part of the result (the sets see it all the same); may be empty. Every hex of a set receives one new
 // hex on each face towards a hex outside its set and on each face on one of rules.box_sides; other faces
 // without a neighbour receive none: the layers end there. The new hexes lie between copies of the old nodes,
-// moved towards the inside, and the old nodes, which stay. Copies stay on the sides of the box that are not
-// wrapped there, and on the interfaces that run through their set. Uses up one ghost layer of the old mesh.
+// moved towards the inside, and the old nodes, which stay. A copy stays on the sides of the box on which the
+// hexes that take it keep a face, and on the interfaces that run through their set. Uses up one ghost layer
+// of the old mesh.
 //
 // Ids: node n and its copies become 64 n + 0, 1, ... (2 n + 0, 1 where the box is wrapped); hex h and its new
 // neighbours 8 h + 0 and 8 h + face + 1.

@@ -1,9 +1,12 @@
 #include "sculpt/pillow/pillow.hpp"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string>
 
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/mesh/adjacency.hpp"
@@ -21,6 +24,12 @@ Pillowed pillowed(const HexMesh& cells, double offset = 0.3) {
 Pillowed surface_pillowed(const Pillowed& first) {
   return pillow(Comm::self(), first.mesh, first.neighbours, surface_labels(first.mesh, first.neighbours), {},
                 {.offset = 0.5, .with_neighbours = true});
+}
+
+Pillowed box_pillowed(const Pillowed& first, double offset = 1, std::uint8_t sides = 0x3f) {
+  return pillow(Comm::self(), first.mesh, first.neighbours,
+                std::vector<std::int32_t>(first.mesh.hexes.size(), 0), {},
+                {.offset = offset, .box_sides = sides, .with_neighbours = true});
 }
 
 std::int64_t quads(const HexMesh& cells) {
@@ -178,6 +187,60 @@ TEST(SurfaceLabels, NameTheSurfaceOnBothSidesAlike) {
   EXPECT_EQ(count[-1], 3) << "the cells themselves";
   ASSERT_EQ(count.size(), 3U) << "0 to 1 and 1 to 2";
   EXPECT_EQ(count.rbegin()->second, 2);
+}
+
+// Pairs of materials that share a face; -1 stands for what is not meshed.
+std::set<std::pair<std::int32_t, std::int32_t>> touching(const HexMesh& mesh) {
+  std::set<std::pair<std::int32_t, std::int32_t>> pairs;
+  const FaceNeighbours neighbours = face_neighbours_of_any(mesh);
+  for (LocalId h = 0; h < mesh.size(); ++h)
+    for (int f = 0; f < 6; ++f) {
+      const LocalId other = neighbours[at(h)][static_cast<std::size_t>(f)];
+      if (other == kNone && face_sides(mesh, h, f) != 0) continue;
+      const std::int32_t beyond = other == kNone ? -1 : mesh.material[at(other)];
+      if (beyond != mesh.material[at(h)]) pairs.insert(std::minmax(mesh.material[at(h)], beyond));
+    }
+  return pairs;
+}
+
+// Two hexes that share two faces, or a hex with two faces on one side of the box: no smoothing helps those.
+std::string topology_problem(const HexMesh& mesh) {
+  if (sides_with_flat_hexes(Comm::self(), mesh) != 0) return "a hex has two faces on one side of the box";
+  for (auto faces : face_neighbours_of_any(mesh)) {
+    std::sort(faces.begin(), faces.end());
+    for (std::size_t f = 0; f + 1 < 6; ++f)
+      if (faces[f] != kNone && faces[f] == faces[f + 1]) return "two hexes share two faces";
+  }
+  return {};
+}
+
+TEST(CurvePillow, IsNeitherPinchedNorChangesWhatTouches) {
+  int pillows = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const test::Case input = test::grains({10, 9, 8}, 12, 12, seed);
+    const test::Overlay o = test::filtered(Comm::self(), input, 5);
+    const int surfaces = seed % 3 == 0, box = seed % 4 == 0;
+    Pillowed first = pillowed(o.cells);
+    if (surfaces) first = surface_pillowed(first);
+    if (box) first = box_pillowed(first);
+    const std::vector<std::uint8_t> anywhere(first.mesh.position.size(), 1);
+    for (const int layers : {1, 2, 3}) {
+      SCOPED_TRACE(fmt::format("seed {}, {} layers", seed, layers));
+      const double threshold = seed % 2 ? 0.1 : -0.5;
+      const CurveSet set = poor_curves(Comm::self(), first.mesh, anywhere, threshold, layers);
+      if (set.poor == 0) continue;
+      const Pillowed p =
+          pillow(Comm::self(), first.mesh, first.neighbours, set.label, {}, {.with_neighbours = true});
+      pillows += p.mesh.size() > first.mesh.size();
+      EXPECT_EQ(test::conformity_problem(p.mesh, 2 + surfaces + box, box), "");
+      EXPECT_EQ(test::boundary_problem(p.mesh), "");
+      EXPECT_EQ(p.neighbours, face_neighbours(p.mesh));
+      EXPECT_EQ(topology_problem(p.mesh), "");
+      EXPECT_EQ(touching(p.mesh), touching(first.mesh));
+      EXPECT_NEAR(test::volume(p.mesh) / test::volume(input.grid), 1, 1e-12);
+    }
+  }
+  EXPECT_GE(pillows, 15);
 }
 
 }  // namespace

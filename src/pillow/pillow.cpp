@@ -17,12 +17,12 @@ constexpr std::int32_t kOutside = -1;   // stands for the material of what is no
 
 // The interface that runs through a set at one of its nodes.
 struct InterfaceThrough {
-  Vec3 middle, normal;  // sums over faces seen from the hexes of the set
+  Vec3 normal;  // sum over faces seen from the hexes of the set
   int faces = 0;
   std::vector<std::pair<LocalId, std::int32_t>> beside;  // other end of an edge at the node, material there
 
   void clear() {
-    middle = normal = {};
+    normal = {};
     faces = 0;
     beside.clear();
   }
@@ -141,26 +141,21 @@ class Pillower {
     }
   }
 
-  // The way from the node to the middle of its group or, where an interface runs through the group, to the
-  // middle of its part there.
+  // The way from the node into its group or, where an interface runs through the group, along that, to the
+  // middle of the hexes, faces or edges there.
   Vec3 inwards(LocalId node, LocalId copy) {
     const Vec3 p = mesh_.position[at(node)];
     find_interface(node);
-    if (through_.faces == 0) {
-      Vec3 sum;
-      for (const std::int32_t item : group_)
-        for (const LocalId n : mesh_.hexes[at(item / 8)]) sum += mesh_.position[at(n)];
-      return (1.0 / (8.0 * static_cast<double>(group_.size()))) * sum - p;
-    }
+    if (through_.faces == 0) return rules_.along_edges ? way_along_edges(node) : middle_of_group() - p;
     if (!through_curve()) {
       result_.on_interface.push_back({copy, false, unit(through_.normal)});
-      return (1.0 / through_.faces) * through_.middle - p;
+      return way_along_edges(node);
     }
     // Along the curve: the ends of its edges in the group.
     const std::vector<LocalId> ends = curve_ends();
     if (ends.empty()) {
       result_.on_interface.push_back({copy, true, {}});
-      return (1.0 / through_.faces) * through_.middle - p;
+      return way_along_edges(node);
     }
     Vec3 sum, tangent;
     for (const LocalId n : ends) {
@@ -172,17 +167,62 @@ class Pillower {
     return (0.5 / static_cast<double>(ends.size())) * sum;
   }
 
+  [[nodiscard]] Vec3 middle_of_group() const {
+    Vec3 sum;
+    for (const std::int32_t item : group_)
+      for (const LocalId n : mesh_.hexes[at(item / 8)]) sum += mesh_.position[at(n)];
+    return (1.0 / (8.0 * static_cast<double>(group_.size()))) * sum;
+  }
+
+  // To the middle of the edges that leave the wrapped faces at the node; where there are none, to the middle
+  // of the faces that are not wrapped. Of the interface only, where one runs through.
+  [[nodiscard]] Vec3 way_along_edges(LocalId node) {
+    inner_.clear();
+    outer_.clear();
+    Vec3 middle;
+    int faces = 0;
+    for (const std::int32_t item : group_)
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
+        const HexFace face{item / 8, f};
+        const bool outside = wrapped(face.hex, face.face);
+        if (!outside && through_.faces > 0 && !on_interface(face)) continue;
+        const auto nodes = face_nodes(mesh_, face);
+        const auto v = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+        auto& ends = outside ? outer_ : inner_;
+        ends.insert(ends.end(), {nodes[(v + 1) % 4], nodes[(v + 3) % 4]});
+        if (outside) continue;
+        for (const LocalId n : nodes) middle += 0.25 * mesh_.position[at(n)];
+        ++faces;
+      }
+    const Vec3 p = mesh_.position[at(node)];
+    std::sort(inner_.begin(), inner_.end());
+    Vec3 sum;
+    int edges = 0;
+    for (std::size_t i = 0; i < inner_.size(); ++i) {
+      if (i > 0 && inner_[i] == inner_[i - 1]) continue;
+      if (std::find(outer_.begin(), outer_.end(), inner_[i]) != outer_.end()) continue;
+      sum += mesh_.position[at(inner_[i])] - p;
+      ++edges;
+    }
+    if (edges > 0) return (0.5 / edges) * sum;
+    return (faces > 0 ? (1.0 / faces) * middle : middle_of_group()) - p;
+  }
+
+  // Whether a face that is not wrapped lies on an interface.
+  [[nodiscard]] bool on_interface(HexFace face) const {
+    const LocalId other = neighbours_[at(face.hex)][static_cast<std::size_t>(face.face)];
+    return other == kNone ? face_sides(mesh_, face.hex, face.face) == 0
+                          : mesh_.material[at(other)] != mesh_.material[at(face.hex)];
+  }
+
   // Faces of the group at the node that are on an interface and not wrapped.
   void find_interface(LocalId node) {
     through_.clear();
     for (const std::int32_t item : group_) {
       const LocalId h = item / 8;
       for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
-        if (wrapped(h, f)) continue;
+        if (wrapped(h, f) || !on_interface({h, f})) continue;
         const LocalId other = neighbours_[at(h)][static_cast<std::size_t>(f)];
-        if (other == kNone ? face_sides(mesh_, h, f) != 0
-                           : mesh_.material[at(other)] == mesh_.material[at(h)])
-          continue;
         add_face(node, {h, f}, other == kNone ? kOutside : mesh_.material[at(other)]);
       }
     }
@@ -193,7 +233,6 @@ class Pillower {
     for (std::size_t v = 0; v < 4; ++v) p[v] = mesh_.position[at(nodes[v])];
     const std::int32_t here = mesh_.material[at(face.hex)];
     const Vec3 normal = unit(cross(p[2] - p[0], p[3] - p[1]));
-    through_.middle += 0.25 * (p[0] + p[1] + p[2] + p[3]);
     through_.normal += beyond == kOutside || here < beyond ? normal : -normal;
     ++through_.faces;
     for (std::size_t v = 0; v < 4; ++v)
@@ -349,6 +388,7 @@ class Pillower {
   std::vector<Hex> corner_;                // per old hex: new node at each corner
   std::vector<LocalId> start_;  // per old hex: its new number, followed by those of the hexes on its faces
   std::vector<std::int32_t> group_;
+  std::vector<LocalId> inner_, outer_;
   std::vector<std::uint8_t> done_;
   InterfaceThrough through_;
   Pillowed result_;

@@ -32,7 +32,7 @@ void add_boundary_layers(const Comm& comm, LayeredMesh& layered, FaceNeighbours&
     const double kept = static_cast<double>(layers + 1 - layer) / (layers + 2 - layer);
     const std::vector<std::int32_t> everywhere(layered.mesh.hexes.size(), 0);
     add_layer(comm, layered, neighbours, everywhere,
-              {.offset = 2 * kept, .box_sides = sides, .with_neighbours = true});
+              {.offset = 2 * kept, .along_edges = true, .box_sides = sides, .with_neighbours = true});
   }
 }
 
@@ -71,7 +71,9 @@ LayeredMesh add_layers(const Comm& comm, const HexMesh& cells, const FaceNeighbo
   first = {};
   if (plan.surfaces)
     add_layer(comm, layered, beside, surface_labels(layered.mesh, beside),
-              {.offset = kSecondOffset, .with_neighbours = boundaries || plan.boundary_layers > 0});
+              {.offset = kSecondOffset,
+               .along_edges = true,
+               .with_neighbours = boundaries || plan.boundary_layers > 0});
   if (plan.boundaries) {
     const std::uint8_t sides = boundaries ? sides_with_flat_hexes(comm, layered.mesh) : std::uint8_t{0};
     if (sides != 0)
@@ -100,7 +102,8 @@ void add_curve_layers(const Comm& comm, LayeredMesh& layered, const LayerPlan& p
   }
   const std::int64_t before = owned_hexes(comm, mesh);
   const double worst = summarise(comm, mesh).least;
-  Pillowed next = pillow(comm, mesh, face_neighbours(mesh), set.label, {}, {.offset = kSecondOffset});
+  Pillowed next = pillow(comm, mesh, face_neighbours(mesh), set.label, {},
+                         {.offset = kSecondOffset, .along_edges = true});
   LayeredMesh wrapped{{}, followed(layered.geometry, next), layered.pillows + 1};
   wrapped.mesh = std::move(next.mesh);
   wrapped.mesh.node_exchange.copy_to_ghosts(wrapped.mesh.position);

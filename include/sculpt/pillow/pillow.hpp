@@ -12,6 +12,7 @@ namespace sculpt {
 
 struct PillowRules {
   double offset = 0.3;           // of the way from a node to the middle of its hexes, for copies
+  bool along_edges = false;      // to the middle of the edges into the set instead: for sets of thin layers
   std::uint8_t box_sides = 0;    // sides of the box (BoxSide) whose faces are wrapped as well
   bool with_neighbours = false;  // of the result
 };

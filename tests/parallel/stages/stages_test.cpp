@@ -57,6 +57,38 @@ TEST(SameMesh, WithSurfacePillows) {
   expect_same_alone_and_together(grains({10, 9, 8}, 12, 5, 7), options);
 }
 
+TEST(SameMesh, WithLayersAlongTheBox) {
+  StageOptions options;
+  options.layers.boundary_layers = 2;
+  expect_same_alone_and_together(grains({9, 8, 7}, 10, 5, 7), options);
+  options.void_material = 0;
+  expect_same_alone_and_together(noise({3, 5, 4}, 3, 1), options);
+}
+
+// The growth and completion of the set around curves cross the borders between ranks.
+TEST(SameMesh, WithLayersAroundCurves) {
+  StageOptions options;
+  options.layers.curves = true;
+  options.layers.curve_threshold = 0.5;
+  for (const int layers : {1, 3})
+    for (const bool smooth : {false, true}) {
+      options.layers.curve_layers = layers;
+      options.layers.smooth_after = smooth;
+      expect_same_alone_and_together(grains({12, 9, 8}, 9, 9, 7), options);
+    }
+}
+
+TEST(SameMesh, WithAllLayers) {
+  StageOptions options;
+  options.void_material = 1;
+  options.layers.surfaces = options.layers.curves = true;
+  options.layers.curve_threshold = 0.4;
+  options.layers.curve_layers = 2;
+  options.layers.boundary_layers = 1;
+  options.layers.smooth_after = false;
+  expect_same_alone_and_together(grains({9, 8, 7}, 8, 5, 3), options);
+}
+
 TEST(SameMesh, UnderAllCurveRules) {
   for (const CurveRule rule : {CurveRule::kOff, CurveRule::kCircle, CurveRule::kAverageTangent,
                                CurveRule::kNeighbourSurfaceNormal, CurveRule::kVfrac, CurveRule::kLinear}) {

@@ -55,7 +55,7 @@ LayerPlan layer_plan(const Deck& deck) {
   return p;
 }
 
-LayeredMesh add_layers(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
+LayeredMesh add_layers(const Comm& comm, HexMesh cells, FaceNeighbours neighbours,
                        std::span<const std::uint8_t> drop, const Interfaces& faces,
                        const std::vector<Weight>& weights, const LayerPlan& plan, const Log& log) {
   std::vector<std::int32_t> label = cells.material;
@@ -65,23 +65,25 @@ LayeredMesh add_layers(const Comm& comm, const HexMesh& cells, const FaceNeighbo
   const bool more = plan.surfaces || boundaries || plan.boundary_layers > 0;
   Pillowed first =
       pillow(comm, cells, neighbours, label, drop, {.offset = kFirstOffset, .with_neighbours = more});
-  FaceNeighbours beside = std::move(first.neighbours);
+  cells = {};
+  neighbours = std::move(first.neighbours);
   LayeredMesh layered{{}, interface_geometry(first, faces, weights), 1};
   layered.mesh = std::move(first.mesh);
   first = {};
   if (plan.surfaces)
-    add_layer(comm, layered, beside, surface_labels(layered.mesh, beside),
+    add_layer(comm, layered, neighbours, surface_labels(layered.mesh, neighbours),
               {.offset = kSecondOffset,
                .along_edges = true,
                .with_neighbours = boundaries || plan.boundary_layers > 0});
   if (plan.boundaries) {
     const std::uint8_t sides = boundaries ? sides_with_flat_hexes(comm, layered.mesh) : std::uint8_t{0};
     if (sides != 0)
-      add_boundary_layers(comm, layered, beside, 1, sides);
+      add_boundary_layers(comm, layered, neighbours, 1, sides);
     else
       log.line("  pillow_boundaries: no hex has two faces on one side of the box, so no layer is added");
   }
-  if (plan.boundary_layers > 0) add_boundary_layers(comm, layered, beside, plan.boundary_layers, kAllSides);
+  if (plan.boundary_layers > 0)
+    add_boundary_layers(comm, layered, neighbours, plan.boundary_layers, kAllSides);
   layered.mesh.node_exchange.copy_to_ghosts(layered.mesh.position);
   return layered;
 }

@@ -39,9 +39,10 @@ struct LayeredMesh {
   int pillows = 0;    // how often pillow() was called
 };
 
-// Collective. Everything that comes before the smoothing. drop: per cell, no part of the mesh; weights: of
+// Collective. Everything that comes before the smoothing. Gives up the cells when
+// it is done with them. drop: per cell, no part of the mesh; weights: of
 // the interface nodes.
-[[nodiscard]] LayeredMesh add_layers(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
+[[nodiscard]] LayeredMesh add_layers(const Comm& comm, HexMesh cells, FaceNeighbours neighbours,
                                      std::span<const std::uint8_t> drop, const Interfaces& faces,
                                      const std::vector<Weight>& weights, const LayerPlan& plan,
                                      const Log& log);

@@ -194,10 +194,8 @@ Meshed stair_mesh(const Comm& comm, const Deck& deck, const Overlay& overlay,
 Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, const Contour& shape,
                     const std::vector<std::uint8_t>& drop, const Log& log, Stages& stages) {
   const LayerPlan plan = layer_plan(deck);
-  LayeredMesh layered =
-      add_layers(comm, overlay.cells, overlay.neighbours, drop, shape.faces, shape.weights, plan, log);
-  overlay.cells = {};
-  overlay.neighbours = {};
+  LayeredMesh layered = add_layers(comm, std::move(overlay.cells), std::move(overlay.neighbours), drop,
+                                   shape.faces, shape.weights, plan, log);
   stages.end("generate hexes");
   log.line("(9/9) begin smoothing...");
   const auto smooth = [&](LayeredMesh& l) {

@@ -122,6 +122,13 @@ TEST_F(SameBits, PillowSmoothOff) {
   expect_same(grains(7, 6, 5), "pillow = 100\n", kFew);
 }
 
+TEST_F(SameBits, StairsHaveNoPillows) {
+  const RankMesh stairs = expect_same(grains(6, 5, 2), "stair = full\n", {2});
+  EXPECT_EQ(first_console().find("WARNING"), std::string::npos);
+  EXPECT_TRUE(expect_same(grains(6, 5, 2), "stair = full\npillow = 1\n", {2}) == stairs);
+  EXPECT_NE(first_console().find("WARNING: stair keeps the cells as they are"), std::string::npos);
+}
+
 TEST_F(SameBits, MicroShave) { expect_same(grains(8, 40, 11), "micro_shave = true\n", kFew); }
 
 TEST_F(SameBits, FixedBox) { expect_same(grains(8, 6, 5), "smooth = fixed_bbox\ncsmooth = vfrac\n", kFew); }

@@ -103,6 +103,12 @@ const std::vector<Rule>& rules() {
        {"iproc", "jproc", "kproc", "num_procs"},
        "the product of the given ones of iproc, jproc and kproc must divide the number of processes",
        Tell::kAll},
+      {[](const Deck& d) {
+         return d.pillow > kPillowCurvesNoSmoothing && d.given("pillow_curve_layers") &&
+                d.pillow % 10 != d.pillow_curve_layers;
+       },
+       {"pillow", "pillow_curve_layers"},
+       "pillow and pillow_curve_layers ask for different numbers of layers"},
       {[](const Deck& d) { return d.xscale <= 0 || d.yscale <= 0 || d.zscale <= 0 || d.scale <= 0; },
        {"xscale", "yscale", "zscale", "scale"},
        "scale factors must be positive"},

@@ -1,45 +1,54 @@
 #include "sculpt/pillow/pillow.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 
+#include "pillow/edge_walk.hpp"
 #include "sculpt/mesh/adjacency.hpp"
 
 namespace sculpt {
 namespace {
 
 constexpr GlobalId kNodeFactor = 64, kHexFactor = 8;
+constexpr GlobalId kBoxNodeFactor = 2;  // a wrap of the box copies a node once
+constexpr int kBottom = 4, kTop = 5;    // faces of a new hex: towards the old hex, where the old face was
+constexpr std::int32_t kOutside = -1;   // stands for the material of what is not meshed
 
-// The faces of a hex that hold a corner.
-constexpr std::array<std::array<int, 3>, 8> kCornerFaces = [] {
-  std::array<std::array<int, 3>, 8> faces{};
-  for (int c = 0; c < 8; ++c) {
-    std::size_t k = 0;
-    for (int f = 0; f < 6; ++f)
-      for (const int v : kFaces[static_cast<std::size_t>(f)])
-        if (v == c) faces[static_cast<std::size_t>(c)][k++] = f;
+// The interface that runs through a set at one of its nodes.
+struct InterfaceThrough {
+  Vec3 normal;  // sum over faces seen from the hexes of the set
+  int faces = 0;
+  std::vector<std::pair<LocalId, std::int32_t>> beside;  // other end of an edge at the node, material there
+
+  void clear() {
+    normal = {};
+    faces = 0;
+    beside.clear();
   }
-  return faces;
-}();
+};
 
 class Pillower {
  public:
-  Pillower(const HexMesh& mesh, std::span<const std::int32_t> label, std::span<const std::uint8_t> drop,
-           double offset)
+  Pillower(const HexMesh& mesh, const FaceNeighbours& neighbours, std::span<const std::int32_t> label,
+           std::span<const std::uint8_t> drop, const PillowRules& rules)
       : mesh_(mesh),
+        neighbours_(neighbours),
         label_(label),
         drop_(drop),
-        offset_(offset),
-        neighbours_(face_neighbours(mesh)),
+        rules_(rules),
+        node_factor_(rules.box_sides != 0 ? kBoxNodeFactor : kNodeFactor),
         kept_layers_(mesh.ghost_layers - 1) {}
 
   Pillowed run(const Comm& comm) {
-    mark_nodes();
+    find_wrapped_faces();
     number_nodes();
     make_hexes();
     drop_unused_nodes();
+    if (rules_.with_neighbours) connect();
     HexMesh& out = result_.mesh;
     out.colours = mesh_.colours;
+    result_.node_factor = node_factor_;
     out.ghost_layers = kept_layers_;
     out.cell_size = mesh_.cell_size;
     out.node_exchange = GhostExchange(comm, out.node_id, out.node_owner);
@@ -48,28 +57,34 @@ class Pillower {
   }
 
  private:
-  [[nodiscard]] bool kept(LocalId h) const { return mesh_.layer[at(h)] <= kept_layers_; }
+  [[nodiscard]] bool kept(LocalId h) const {
+    return mesh_.layer[at(h)] <= kept_layers_ && (drop_.empty() || !drop_[at(h)]);
+  }
   // Whether a new hex goes on this face.
-  [[nodiscard]] bool pillowed(LocalId h, int face) const {
-    const LocalId other = neighbours_[at(h)][static_cast<std::size_t>(face)];
-    return other != kNone && label_[at(h)] >= 0 && label_[at(other)] != label_[at(h)];
-  }
+  [[nodiscard]] bool wrapped(LocalId h, int face) const { return wrapped_[at(h)] >> face & 1; }
 
-  void mark_nodes() {
+  void find_wrapped_faces() {
+    wrapped_.assign(mesh_.hexes.size(), 0);
     on_boundary_.assign(mesh_.position.size(), 0);
-    for (LocalId h = 0; h < mesh_.size(); ++h)
-      for (int f = 0; f < 6; ++f)
-        if (pillowed(h, f))
-          for (const int c : kFaces[static_cast<std::size_t>(f)])
-            on_boundary_[at(mesh_.hexes[at(h)][static_cast<std::size_t>(c)])] = 1;
+    for (LocalId h = 0; h < mesh_.size(); ++h) {
+      if (label_[at(h)] < 0) continue;
+      for (int f = 0; f < 6; ++f) {
+        const LocalId other = neighbours_[at(h)][static_cast<std::size_t>(f)];
+        const bool wrap = other != kNone ? label_[at(other)] != label_[at(h)]
+                                         : (rules_.box_sides & face_sides(mesh_, h, f)) != 0;
+        if (!wrap) continue;
+        wrapped_[at(h)] |= static_cast<std::uint8_t>(1 << f);
+        for (const LocalId n : face_nodes(mesh_, {h, f})) on_boundary_[at(n)] = 1;
+      }
+    }
   }
 
-  void add_node(LocalId from, GlobalId copy, const Vec3& position) {
+  void add_node(LocalId from, GlobalId copy, const Vec3& position, std::uint8_t sides) {
     HexMesh& out = result_.mesh;
     out.position.push_back(position);
-    out.node_id.push_back(kNodeFactor * mesh_.node_id[at(from)] + copy);
+    out.node_id.push_back(node_factor_ * mesh_.node_id[at(from)] + copy);
     out.node_owner.push_back(mesh_.node_owner[at(from)]);
-    out.box_sides.push_back(mesh_.box_sides[at(from)]);
+    out.box_sides.push_back(sides);
     out.colour.push_back(mesh_.colour[at(from)]);
     result_.source.push_back(from);
     result_.copied.push_back(copy != 0);
@@ -84,7 +99,7 @@ class Pillower {
     result_.mesh.position.reserve(mesh_.position.size());
     for (LocalId n = 0; n < mesh_.nodes(); ++n) {
       first_[at(n)] = static_cast<LocalId>(result_.mesh.position.size());
-      add_node(n, 0, mesh_.position[at(n)]);
+      add_node(n, 0, mesh_.position[at(n)], mesh_.box_sides[at(n)]);
       const auto items = around[n];
       for (const std::int32_t item : items)
         corner_[at(item / 8)][static_cast<std::size_t>(item % 8)] = first_[at(n)];
@@ -92,7 +107,7 @@ class Pillower {
     }
   }
 
-  // One copy for every face-connected group of equally labelled hexes at the node that has a pillowed face
+  // One copy for every face-connected group of equally labelled hexes at the node that has a wrapped face
   // there.
   void copy_node(LocalId node, std::span<const std::int32_t> items) {
     done_.assign(items.size(), 0);
@@ -102,11 +117,13 @@ class Pillower {
       done_[first] = 1;
       group_.assign(1, items[first]);
       bool wanted = false;
+      std::uint8_t sides = 0;  // those that the group keeps a face on
       for (std::size_t g = 0; g < group_.size(); ++g) {
         const LocalId h = group_[g] / 8;
         for (const int f : kCornerFaces[static_cast<std::size_t>(group_[g] % 8)]) {
-          wanted = wanted || pillowed(h, f);
           const LocalId other = neighbours_[at(h)][static_cast<std::size_t>(f)];
+          wanted = wanted || wrapped(h, f);
+          if (other == kNone && !wrapped(h, f)) sides |= face_sides(mesh_, h, f);
           if (other == kNone || label_[at(other)] != label_[at(h)]) continue;
           for (std::size_t i = 0; i < items.size(); ++i)
             if (!done_[i] && items[i] / 8 == other) {
@@ -116,42 +133,151 @@ class Pillower {
         }
       }
       if (!wanted) continue;
-      check(++copies < kNodeFactor, "a node needs more than 63 pillow copies");
+      check(++copies < node_factor_, "a node needs too many pillow copies");
       std::sort(group_.begin(), group_.end());
-      add_node(node, copies, inside_of(node));
-      for (const std::int32_t item : group_)
-        corner_[at(item / 8)][static_cast<std::size_t>(item % 8)] = result_.mesh.nodes() - 1;
+      const LocalId copy = result_.mesh.nodes();
+      add_node(node, copies,
+               mesh_.position[at(node)] + held_on_box(rules_.offset * inwards(node, copy), sides), sides);
+      for (const std::int32_t item : group_) corner_[at(item / 8)][static_cast<std::size_t>(item % 8)] = copy;
     }
   }
 
-  // From the node towards the mean centroid of the group, on its box sides.
-  [[nodiscard]] Vec3 inside_of(LocalId node) const {
+  // The way from the node into its group or, where an interface runs through the group, along that, to the
+  // middle of the hexes, faces or edges there.
+  Vec3 inwards(LocalId node, LocalId copy) {
+    const Vec3 p = mesh_.position[at(node)];
+    find_interface(node);
+    if (through_.faces == 0) return rules_.along_edges ? way_along_edges(node) : middle_of_group() - p;
+    if (!through_curve()) {
+      result_.on_interface.push_back({copy, false, unit(through_.normal)});
+      return way_along_edges(node);
+    }
+    // Along the curve: the ends of its edges in the group.
+    const std::vector<LocalId> ends = curve_ends();
+    if (ends.empty()) {
+      result_.on_interface.push_back({copy, true, {}});
+      return way_along_edges(node);
+    }
+    Vec3 sum, tangent;
+    for (const LocalId n : ends) {
+      const Vec3 way = mesh_.position[at(n)] - p;
+      sum += way;
+      tangent += dot(way, tangent) < 0 ? -way : way;
+    }
+    result_.on_interface.push_back({copy, true, ends.size() <= 2 ? unit(tangent) : Vec3{}});
+    return (0.5 / static_cast<double>(ends.size())) * sum;
+  }
+
+  [[nodiscard]] Vec3 middle_of_group() const {
     Vec3 sum;
     for (const std::int32_t item : group_)
       for (const LocalId n : mesh_.hexes[at(item / 8)]) sum += mesh_.position[at(n)];
-    const Vec3 centre = (1.0 / (8.0 * static_cast<double>(group_.size()))) * sum;
+    return (1.0 / (8.0 * static_cast<double>(group_.size()))) * sum;
+  }
+
+  // To the middle of the edges that leave the wrapped faces at the node; where there are none, to the middle
+  // of the faces that are not wrapped. Of the interface only, where one runs through.
+  [[nodiscard]] Vec3 way_along_edges(LocalId node) {
+    inner_.clear();
+    outer_.clear();
+    Vec3 middle;
+    int faces = 0;
+    for (const std::int32_t item : group_)
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
+        const HexFace face{item / 8, f};
+        const bool outside = wrapped(face.hex, face.face);
+        if (!outside && through_.faces > 0 && !on_interface(face)) continue;
+        const auto nodes = face_nodes(mesh_, face);
+        const auto v = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+        auto& ends = outside ? outer_ : inner_;
+        ends.insert(ends.end(), {nodes[(v + 1) % 4], nodes[(v + 3) % 4]});
+        if (outside) continue;
+        for (const LocalId n : nodes) middle += 0.25 * mesh_.position[at(n)];
+        ++faces;
+      }
     const Vec3 p = mesh_.position[at(node)];
-    return p + held_on_box(offset_ * (centre - p), mesh_.box_sides[at(node)]);
+    std::sort(inner_.begin(), inner_.end());
+    Vec3 sum;
+    int edges = 0;
+    for (std::size_t i = 0; i < inner_.size(); ++i) {
+      if (i > 0 && inner_[i] == inner_[i - 1]) continue;
+      if (std::find(outer_.begin(), outer_.end(), inner_[i]) != outer_.end()) continue;
+      sum += mesh_.position[at(inner_[i])] - p;
+      ++edges;
+    }
+    if (edges > 0) return (0.5 / edges) * sum;
+    return (faces > 0 ? (1.0 / faces) * middle : middle_of_group()) - p;
+  }
+
+  // Whether a face that is not wrapped lies on an interface.
+  [[nodiscard]] bool on_interface(HexFace face) const {
+    const LocalId other = neighbours_[at(face.hex)][static_cast<std::size_t>(face.face)];
+    return other == kNone ? face_sides(mesh_, face.hex, face.face) == 0
+                          : mesh_.material[at(other)] != mesh_.material[at(face.hex)];
+  }
+
+  // Faces of the group at the node that are on an interface and not wrapped.
+  void find_interface(LocalId node) {
+    through_.clear();
+    for (const std::int32_t item : group_) {
+      const LocalId h = item / 8;
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
+        if (wrapped(h, f) || !on_interface({h, f})) continue;
+        const LocalId other = neighbours_[at(h)][static_cast<std::size_t>(f)];
+        add_face(node, {h, f}, other == kNone ? kOutside : mesh_.material[at(other)]);
+      }
+    }
+  }
+  void add_face(LocalId node, HexFace face, std::int32_t beyond) {
+    const auto nodes = face_nodes(mesh_, face);
+    std::array<Vec3, 4> p;
+    for (std::size_t v = 0; v < 4; ++v) p[v] = mesh_.position[at(nodes[v])];
+    const std::int32_t here = mesh_.material[at(face.hex)];
+    const Vec3 normal = unit(cross(p[2] - p[0], p[3] - p[1]));
+    through_.normal += beyond == kOutside || here < beyond ? normal : -normal;
+    ++through_.faces;
+    for (std::size_t v = 0; v < 4; ++v)
+      if (nodes[v] == node)
+        for (const LocalId end : {nodes[(v + 1) % 4], nodes[(v + 3) % 4]}) {
+          through_.beside.emplace_back(end, here);
+          through_.beside.emplace_back(end, beyond);
+        }
+  }
+  // Whether at least three materials meet at the node within the group.
+  [[nodiscard]] bool through_curve() const {
+    const std::int32_t a = through_.beside[0].second, b = through_.beside[1].second;
+    return std::any_of(through_.beside.begin(), through_.beside.end(),
+                       [&](const auto& entry) { return entry.second != a && entry.second != b; });
+  }
+  // Other ends of the edges where at least three materials meet, ascending.
+  std::vector<LocalId> curve_ends() {
+    auto& beside = through_.beside;
+    std::sort(beside.begin(), beside.end());
+    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+    std::vector<LocalId> ends;
+    for (std::size_t i = 0; i + 2 < beside.size(); ++i)
+      if (beside[i].first == beside[i + 2].first && (ends.empty() || ends.back() != beside[i].first))
+        ends.push_back(beside[i].first);
+    return ends;
   }
 
   void make_hexes() {
     std::size_t count = 0;
     for (LocalId h = 0; h < mesh_.size(); ++h)
-      if (kept(h) && !drop_[at(h)]) {
-        ++count;
-        for (int f = 0; f < 6; ++f) count += pillowed(h, f);
-      }
+      if (kept(h)) count += 1 + static_cast<std::size_t>(std::popcount(wrapped_[at(h)]));
     HexMesh& out = result_.mesh;
     out.hexes.reserve(count);
     out.hex_id.reserve(count);
     out.hex_owner.reserve(count);
     out.layer.reserve(count);
     out.material.reserve(count);
+    start_.assign(mesh_.hexes.size(), kNone);
     for (LocalId h = 0; h < mesh_.size(); ++h) {
-      if (!kept(h) || drop_[at(h)]) continue;
+      if (!kept(h)) continue;
+      start_[at(h)] = out.size();
       add_hex(h, 0, corner_[at(h)]);
       for (int f = 0; f < 6; ++f) {
-        if (!pillowed(h, f)) continue;
+        if (!wrapped(h, f)) continue;
         Hex hex;  // bottom: the copies; top: the old quad
         for (std::size_t v = 0; v < 4; ++v) {
           const auto c = static_cast<std::size_t>(kFaces[static_cast<std::size_t>(f)][v]);
@@ -198,31 +324,86 @@ class Pillower {
     result_.copied.resize(at(next));
     for (Hex& hex : out.hexes)
       for (LocalId& n : hex) n = renumbered[at(n)];
+    for (InterfaceCopy& copy : result_.on_interface) copy.node = renumbered[at(copy.node)];
+    std::erase_if(result_.on_interface, [](const InterfaceCopy& copy) { return copy.node == kNone; });
+  }
+
+  // Neighbours of the new hexes, from those of the old ones.
+  void connect() {
+    FaceNeighbours& out = result_.neighbours;
+    out.resize(result_.mesh.hexes.size());
+    for (LocalId h = 0; h < mesh_.size(); ++h) {
+      if (start_[at(h)] == kNone) continue;
+      for (int f = 0; f < 6; ++f) {
+        auto& of_old = out[at(start_[at(h)])][static_cast<std::size_t>(f)];
+        if (!wrapped(h, f)) {
+          const LocalId other = neighbours_[at(h)][static_cast<std::size_t>(f)];
+          of_old = other == kNone                       ? kNone
+                   : label_[at(other)] == label_[at(h)] ? start_[at(other)]
+                                                        : beyond({h, f});
+          continue;
+        }
+        of_old = on_face({h, f});
+        auto& of_new = out[at(of_old)];
+        for (int side = 0; side < 4; ++side)
+          of_new[static_cast<std::size_t>(side)] = beside(h, f, static_cast<std::size_t>(side));
+        of_new[kBottom] = start_[at(h)];
+        of_new[kTop] = beyond({h, f});
+      }
+    }
+  }
+  // The new hex on a wrapped face; kNone where it is no part of the result.
+  [[nodiscard]] LocalId on_face(HexFace face) const {
+    if (start_[at(face.hex)] == kNone) return kNone;
+    const unsigned before = wrapped_[at(face.hex)] & ((1U << face.face) - 1);
+    return start_[at(face.hex)] + 1 + std::popcount(before);
+  }
+  // What lies beyond an old face.
+  [[nodiscard]] LocalId beyond(HexFace face) const {
+    const HexFace there = other_side(mesh_, neighbours_, face);
+    if (there.hex == kNone) return kNone;
+    return wrapped(there.hex, there.face) ? on_face(there) : start_[at(there.hex)];
+  }
+  // What it meets at its side over an edge of the old face: the new hex on the next wrapped face around the
+  // edge.
+  [[nodiscard]] LocalId beside(LocalId h, int face, std::size_t side) const {
+    const auto nodes = face_nodes(mesh_, {h, face});
+    const LocalId a = nodes[side], b = nodes[(side + 1) % 4];
+    for (HexFace next = across_edge(mesh_, {h, face}, a, b);; next = across_edge(mesh_, next, a, b)) {
+      if (wrapped(next.hex, next.face)) return on_face(next);
+      next = other_side(mesh_, neighbours_, next);
+      if (next.hex == kNone) return kNone;
+    }
   }
 
   const HexMesh& mesh_;
+  const FaceNeighbours& neighbours_;
   std::span<const std::int32_t> label_;
   std::span<const std::uint8_t> drop_;
-  double offset_;
-  FaceNeighbours neighbours_;
+  const PillowRules& rules_;
+  GlobalId node_factor_;
   int kept_layers_;
-  std::vector<std::uint8_t> on_boundary_;  // per old node: on a pillowed face
+  std::vector<std::uint8_t> wrapped_;      // per old hex: bit f where a new hex goes on face f
+  std::vector<std::uint8_t> on_boundary_;  // per old node: on a wrapped face
   std::vector<LocalId> first_;             // per old node: its new number
   std::vector<Hex> corner_;                // per old hex: new node at each corner
+  std::vector<LocalId> start_;  // per old hex: its new number, followed by those of the hexes on its faces
   std::vector<std::int32_t> group_;
+  std::vector<LocalId> inner_, outer_;
   std::vector<std::uint8_t> done_;
+  InterfaceThrough through_;
   Pillowed result_;
 };
 
 }  // namespace
 
-Pillowed pillow(const Comm& comm, const HexMesh& mesh, std::span<const std::int32_t> label,
-                std::span<const std::uint8_t> drop, double offset) {
-  return Pillower(mesh, label, drop, offset).run(comm);
+Pillowed pillow(const Comm& comm, const HexMesh& mesh, const FaceNeighbours& neighbours,
+                std::span<const std::int32_t> label, std::span<const std::uint8_t> drop,
+                const PillowRules& rules) {
+  return Pillower(mesh, neighbours, label, drop, rules).run(comm);
 }
 
-std::vector<std::int32_t> surface_labels(const HexMesh& mesh) {
-  const FaceNeighbours neighbours = face_neighbours(mesh);
+std::vector<std::int32_t> surface_labels(const HexMesh& mesh, const FaceNeighbours& neighbours) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> pairs;
   std::vector<std::int32_t> label(mesh.hexes.size(), -1);
   for (std::size_t h = 0; h < mesh.hexes.size(); ++h)
@@ -232,6 +413,23 @@ std::vector<std::int32_t> surface_labels(const HexMesh& mesh) {
       label[h] = pairs.try_emplace(materials, static_cast<std::int32_t>(pairs.size())).first->second;
     }
   return label;
+}
+
+std::uint8_t sides_with_flat_hexes(const Comm& comm, const HexMesh& mesh) {
+  unsigned found = 0;
+  for (LocalId h = 0; h < mesh.size(); ++h) {
+    if (mesh.layer[at(h)] != 0) continue;
+    unsigned once = 0;
+    for (int f = 0; f < 6; ++f) {
+      const unsigned sides = face_sides(mesh, h, f);
+      found |= once & sides;
+      once |= sides;
+    }
+  }
+  std::uint8_t sides = 0;
+  for (unsigned bit = 1; bit <= kZmax; bit <<= 1)
+    if (comm.max(std::int64_t{(found & bit) != 0}) == 1) sides |= static_cast<std::uint8_t>(bit);
+  return sides;
 }
 
 }  // namespace sculpt

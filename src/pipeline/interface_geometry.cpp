@@ -1,110 +1,54 @@
 #include "pipeline/interface_geometry.hpp"
 
-#include <algorithm>
-#include <utility>
-
 namespace sculpt {
 namespace {
 
-constexpr double kIntoSurface = 1.0 / 3;  // of the way from a curve node to the middle of the quads beside it
-constexpr double kSliding = 0.1;          // weight of a tangential deviation
+constexpr double kSliding = 0.1;  // weight of a tangential deviation
 
-// The two materials of the hexes around each node; second = -1 where there is one only.
-std::vector<std::pair<std::int32_t, std::int32_t>> materials_at_nodes(const HexMesh& mesh) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> found(mesh.position.size(), {-1, -1});
-  for (std::size_t h = 0; h < mesh.hexes.size(); ++h)
-    for (const LocalId n : mesh.hexes[h]) {
-      auto& [first, second] = found[at(n)];
-      if (first < 0 || first == mesh.material[h])
-        first = mesh.material[h];
-      else
-        second = mesh.material[h];
-    }
-  for (auto& [first, second] : found)
-    if (second >= 0 && second < first) std::swap(first, second);
-  return found;
+// On a surface the normal deviation counts, on a curve all but the tangential one, at a vertex everything.
+Weight weight_of(const InterfaceCopy& copy) {
+  const double all = copy.on_curve ? 1 : kSliding, along = copy.on_curve ? kSliding - 1 : 1 - kSliding;
+  const Vec3& v = copy.direction;
+  return {all + along * v.x * v.x, along * v.x * v.y, along * v.x * v.z,
+          all + along * v.y * v.y, along * v.y * v.z, all + along * v.z * v.z};
 }
 
-// A point of the surface between two materials beside one of its curve nodes, and the weight of a deviation
-// there.
-struct SurfacePoint {
-  Vec3 position;
-  Weight weight;
-};
-
-SurfacePoint beside_curve(const HexMesh& cells, const Interfaces& faces, LocalId entry,
-                          std::pair<std::int32_t, std::int32_t> materials) {
-  Vec3 middle, normal;
-  int quads = 0;
-  for (const LocalId item : faces.node_quads[at(entry)]) {
-    const InterfaceQuad& q = faces.quads[at(item / 4)];
-    const auto pair = Interfaces::materials(cells, q);
-    if (pair[0] != materials.first || pair[1] != materials.second) continue;
-    std::array<Vec3, 4> p;
-    for (std::size_t v = 0; v < 4; ++v) p[v] = cells.position[at(q.node[v])];
-    middle += 0.25 * (p[0] + p[1] + p[2] + p[3]);
-    const Vec3 n = unit(cross(p[2] - p[0], p[3] - p[1]));
-    normal += cells.material[at(q.cell[0])] == pair[0] ? n : -n;
-    ++quads;
-  }
-  const Vec3 curve = cells.position[at(faces.nodes[at(entry)])];
-  if (quads == 0) return {curve, {kSliding, 0, 0, kSliding, 0, kSliding}};
-  const Vec3 n = unit(normal);
-  const double along = 1 - kSliding;
-  const std::uint8_t sides = cells.box_sides[at(faces.nodes[at(entry)])];
-  return {curve + held_on_box(kIntoSurface * ((1.0 / quads) * middle - curve), sides),
-          {kSliding + along * n.x * n.x, along * n.x * n.y, along * n.x * n.z, kSliding + along * n.y * n.y,
-           along * n.y * n.z, kSliding + along * n.z * n.z}};
+void add(Geometry& g, std::size_t node, const Vec3& target, const Weight& weight, bool on_curve) {
+  g.index[node] = static_cast<LocalId>(g.target.size());
+  g.target.push_back(target);
+  g.weight.push_back(weight);
+  g.on_curve.push_back(on_curve);
 }
 
 }  // namespace
 
-Pillowed stacked(const Pillowed& first, Pillowed second) {
-  for (std::size_t n = 0; n < second.source.size(); ++n) {
-    const std::size_t before = at(second.source[n]);
-    second.copied[n] = first.copied[before] ? 1 : static_cast<std::uint8_t>(2 * second.copied[n]);
-    second.source[n] = first.source[before];
-  }
-  return second;
-}
-
-Geometry interface_geometry(Pillowed& pillowed, const HexMesh& cells, const Interfaces& faces,
+Geometry interface_geometry(const Pillowed& pillowed, const Interfaces& faces,
                             const std::vector<Weight>& weights) {
-  HexMesh& mesh = pillowed.mesh;
   Geometry g;
-  g.index.assign(mesh.position.size(), kNone);
-  const bool stacked =
-      std::find(pillowed.copied.begin(), pillowed.copied.end(), std::uint8_t{2}) != pillowed.copied.end();
-  const auto materials =
-      stacked ? materials_at_nodes(mesh) : std::vector<std::pair<std::int32_t, std::int32_t>>{};
+  g.index.assign(pillowed.source.size(), kNone);
   for (std::size_t n = 0; n < pillowed.source.size(); ++n) {
     const LocalId entry = faces.index_of[at(pillowed.source[n])];
-    if (entry == kNone || pillowed.copied[n] == 1) continue;
-    if (pillowed.copied[n] == 2 && materials[n].second < 0) continue;
-    g.index[n] = static_cast<LocalId>(g.target.size());
-    SurfacePoint point{mesh.position[n], weights[at(entry)]};
-    if (pillowed.copied[n] == 2) point = beside_curve(cells, faces, entry, materials[n]);
-    mesh.position[n] = point.position;
-    g.target.push_back(point.position);
-    g.weight.push_back(point.weight);
-    g.on_curve.push_back(pillowed.copied[n] == 0 && faces.kind[at(entry)] != NodeClass::kSurface);
+    if (entry == kNone || pillowed.copied[n]) continue;
+    add(g, n, pillowed.mesh.position[n], weights[at(entry)], faces.kind[at(entry)] != NodeClass::kSurface);
   }
-  mesh.node_exchange.copy_to_ghosts(mesh.position);
   return g;
 }
 
-InterfaceTrack interface_track(const Pillowed& pillowed, const Geometry& geometry, const Interfaces& faces,
-                               const std::vector<Vec3>& contoured) {
-  const HexMesh& mesh = pillowed.mesh;
-  const int rank = mesh.node_exchange.comm().rank();
-  InterfaceTrack track;
-  for (std::size_t n = 0; n < mesh.position.size(); ++n) {
-    if (geometry.index[n] == kNone || pillowed.copied[n] != 0 || mesh.node_owner[n] != rank) continue;
-    track.node.push_back(mesh.node_id[n]);
-    track.contoured.push_back(contoured[at(faces.index_of[at(pillowed.source[n])])]);
-    track.smoothed.push_back(geometry.target[at(geometry.index[n])]);
+Geometry followed(const Geometry& before, const Pillowed& pillowed) {
+  Geometry g;
+  g.index.assign(pillowed.source.size(), kNone);
+  auto copy = pillowed.on_interface.begin();
+  for (std::size_t n = 0; n < pillowed.source.size(); ++n) {
+    if (copy != pillowed.on_interface.end() && at(copy->node) == n) {
+      add(g, n, pillowed.mesh.position[n], weight_of(*copy), copy->on_curve);
+      ++copy;
+      continue;
+    }
+    const LocalId entry = before.index[at(pillowed.source[n])];
+    if (entry == kNone || pillowed.copied[n]) continue;
+    add(g, n, before.target[at(entry)], before.weight[at(entry)], before.on_curve[at(entry)] != 0);
   }
-  return track;
+  return g;
 }
 
 }  // namespace sculpt

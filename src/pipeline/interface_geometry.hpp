@@ -5,23 +5,16 @@
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/interface_smoothing.hpp"
 #include "sculpt/pillow/pillow.hpp"
-#include "sculpt/quality/fidelity.hpp"
 #include "sculpt/smooth/smooth.hpp"
 
 namespace sculpt {
 
-// The second pillow with its sources traced back to the mesh before the first. copied: 1 made by the first
-// pillow (or from such a node), 2 made by the second from an old node.
-[[nodiscard]] Pillowed stacked(const Pillowed& first, Pillowed second);
-
-// Local. Old interface nodes stay where the contour has them. Copies that a surface pillow made of curve
-// nodes lie on the surface: they are put a third of the way into its quads.
-[[nodiscard]] Geometry interface_geometry(Pillowed& pillowed, const HexMesh& cells, const Interfaces& faces,
+// Local. Of the volume pillow of the cells: the old interface nodes, which stay where the contour has them.
+[[nodiscard]] Geometry interface_geometry(const Pillowed& pillowed, const Interfaces& faces,
                                           const std::vector<Weight>& weights);
 
-// Local. The interface nodes of the mesh that this rank owns, without copies. contoured: where the contour
-// placed each node of `faces`.
-[[nodiscard]] InterfaceTrack interface_track(const Pillowed& pillowed, const Geometry& geometry,
-                                             const Interfaces& faces, const std::vector<Vec3>& contoured);
+// Local. The same after another pillow of the mesh: old interface nodes keep what is known of them, copies
+// that lie on an interface shall stay where they were made.
+[[nodiscard]] Geometry followed(const Geometry& before, const Pillowed& pillowed);
 
 }  // namespace sculpt

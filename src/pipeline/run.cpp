@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <functional>
 #include <limits>
 #include <optional>
 
 #include "pipeline/classify.hpp"
 #include "pipeline/console.hpp"
-#include "pipeline/interface_geometry.hpp"
+#include "pipeline/layers.hpp"
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/contour.hpp"
@@ -33,8 +34,6 @@
 namespace sculpt {
 namespace {
 
-constexpr double kFirstOffset = 0.3, kSecondOffset = 0.5;  // of pillow copies towards the inside
-
 // The overlay mesh with its materials, and its adjacency for the stages that work on it.
 struct Overlay {
   HexMesh cells;
@@ -45,8 +44,6 @@ struct Overlay {
   Index3 grid{0, 0, 0};  // cells per axis, all ranks
   bool pure = true;      // on all ranks every cell holds one material only
 };
-
-bool surface_pillows(const Deck& deck) { return deck.pillow_surfaces || deck.pillow == kPillowSurfaces; }
 
 // The source's grid with the expansion layers around it.
 Grid overlay_grid(const Deck& deck, const Grid& source) {
@@ -66,7 +63,7 @@ Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages&
   const Grid grid = overlay_grid(deck, source->grid());
   const CartesianParts parts = cut_grid(grid.cells, comm.size(), {deck.iproc, deck.jproc, deck.kproc});
   print_decomposition(log, parts);
-  const int layers = surface_pillows(deck) ? 3 : 2;
+  const int layers = layer_plan(deck).ghost_layers();
 
   std::vector<IndexBox> wanted;
   for (int r = 0; r < comm.size(); ++r)
@@ -191,14 +188,68 @@ void correct_thickened_volumes(const Deck& deck, HexMesh& mesh, const Geometry& 
   stages.end("correct volumes");
 }
 
+// The interface nodes that this rank owns, by their ids on the overlay grid.
+InterfaceTrack interface_track(const HexMesh& cells, const Interfaces& faces,
+                               const std::vector<Vec3>& contoured) {
+  InterfaceTrack track;
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
+    const std::size_t n = at(faces.nodes[i]);
+    if (cells.node_owner[n] != cells.node_exchange.comm().rank()) continue;
+    track.node.push_back(cells.node_id[n]);
+    track.contoured.push_back(contoured[i]);
+    track.smoothed.push_back(cells.position[n]);
+  }
+  return track;
+}
+
 struct Meshed {
   HexMesh mesh;
-  SidePlan sides;
+  int pillows = 1;       // how often pillow() was called
+  SidePlan sides;        // what its side sets will be
   InterfaceTrack track;  // empty in a mesh that keeps the shape of the cells
 };
 
-// Hexes of the cells, without smoothing (stair) or with buffer layers and smoothing; and what their side sets
-// will be.
+// The hexes of the cells as they are, without what is left out.
+Meshed stair_mesh(const Comm& comm, const Deck& deck, const Overlay& overlay,
+                  const std::vector<std::uint8_t>& drop, const Log& log, Stages& stages) {
+  if (layer_plan(deck).any())
+    log.line("WARNING: stair keeps the cells as they are; the pillow options have no effect");
+  const std::vector<std::int32_t> none(drop.size(), -1);
+  HexMesh mesh = pillow(comm, overlay.cells, overlay.neighbours, none, drop, {}).mesh;
+  stages.end("generate hexes");
+  log.line("(9/9) begin smoothing...");
+  return {std::move(mesh), 1, {}, {}};
+}
+
+Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, const Contour& shape,
+                    const std::vector<std::uint8_t>& drop, const std::vector<double>& wanted_volumes,
+                    const Log& log, Stages& stages) {
+  InterfaceTrack track = interface_track(overlay.cells, shape.faces, shape.placed);
+  const LayerPlan plan = layer_plan(deck);
+  LayeredMesh layered = add_layers(comm, std::move(overlay.cells), std::move(overlay.neighbours), drop,
+                                   shape.faces, shape.weights, plan, log);
+  stages.end("generate hexes");
+  log.line("(9/9) begin smoothing...");
+  const auto smooth = [&](LayeredMesh& l) {
+    smooth_mesh(l.mesh, l.geometry, smooth_options(deck, overlay.pure), log);
+  };
+  const bool smooths = deck.smooth != kSmoothOff;
+  // Curves are judged after the smoothing, so that with curve pillows only the smoothing after those is off.
+  if (smooths && (plan.smooth_after || plan.curves)) {
+    print_smoothing_banner(log, deck);
+    smooth(layered);
+  }
+  stages.end("smooth volume");
+  if (plan.curves) {
+    add_curve_layers(comm, layered, plan,
+                     smooths && plan.smooth_after ? smooth : std::function<void(LayeredMesh&)>{}, log);
+    stages.end("pillow curves");
+  }
+  correct_thickened_volumes(deck, layered.mesh, layered.geometry, wanted_volumes, log, stages);
+  for (GlobalId& node : track.node) node *= layered.node_factor;
+  return {std::move(layered.mesh), layered.pillows, {}, std::move(track)};
+}
+
 Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
                   const std::vector<double>& wanted_volumes, const Log& log, Stages& stages) {
   const std::vector<std::uint8_t> drop = unmeshed_cells(deck, overlay);
@@ -208,43 +259,19 @@ Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
   overlay.fractions = {};
   overlay.around.reset();
   SidePlan sides = generate_geometry(comm, deck, overlay, shape.faces, drop, log);
-  overlay.neighbours = {};
   stages.end("generate geometry");
   log.line("(7/9) generating buffer hexes...");
   log.line("(8/9) generating interior hexes...");
-  if (stair) {
-    HexMesh mesh = pillow(comm, overlay.cells, std::vector<std::int32_t>(drop.size(), -1), drop, 0).mesh;
-    stages.end("generate hexes");
-    log.line("(9/9) begin smoothing...");
-    return {std::move(mesh), std::move(sides), {}};
-  }
-  std::vector<std::int32_t> label = overlay.cells.material;
-  for (std::size_t c = 0; c < label.size(); ++c)
-    if (drop[c]) label[c] = -1;
-  Pillowed result = pillow(comm, overlay.cells, label, drop, kFirstOffset);
-  if (surface_pillows(deck)) {
-    const std::vector<std::uint8_t> keep(result.mesh.hexes.size(), 0);
-    result = stacked(result, pillow(comm, result.mesh, surface_labels(result.mesh), keep, kSecondOffset));
-  }
-  const Geometry geometry = interface_geometry(result, overlay.cells, shape.faces, shape.weights);
-  InterfaceTrack track = interface_track(result, geometry, shape.faces, shape.placed);
-  overlay.cells = {};
-  stages.end("generate hexes");
-  log.line("(9/9) begin smoothing...");
-  if (deck.smooth != kSmoothOff) {
-    print_smoothing_banner(log, deck);
-    smooth_mesh(result.mesh, geometry, smooth_options(deck, overlay.pure), log);
-  }
-  stages.end("smooth volume");
-  correct_thickened_volumes(deck, result.mesh, geometry, wanted_volumes, log, stages);
-  return {std::move(result.mesh), std::move(sides), std::move(track)};
+  Meshed meshed = stair ? stair_mesh(comm, deck, overlay, drop, log, stages)
+                        : layered_mesh(comm, deck, overlay, shape, drop, wanted_volumes, log, stages);
+  meshed.sides = std::move(sides);
+  return meshed;
 }
 
 // The faces of the mesh that belong to side sets.
 std::vector<SideFace> side_set_faces(const Deck& deck, const Meshed& meshed, const Log& log) {
   if (deck.gen_sidesets != kSidesetsOff) log.line("building sidesets...");
-  const int pillows = deck.stair == kStairOff && surface_pillows(deck) ? 2 : 1;
-  return side_faces(meshed.sides, meshed.mesh, pillows);
+  return side_faces(meshed.sides, meshed.mesh, meshed.pillows);
 }
 
 // Takes hexes below remove_bad out of the mesh, and their faces out of the side sets.

@@ -153,31 +153,37 @@ class Planner {
   std::vector<First> firsts_;
 };
 
+// The side of a buffer hex on face g over the edge that g shares with face f; -1 when they share none.
+int side_over(int g, int f) {
+  const auto& on = kFaces[static_cast<std::size_t>(f)];
+  const auto& corners = kFaces[static_cast<std::size_t>(g)];
+  const auto shared = [&](std::size_t v) { return std::find(on.begin(), on.end(), corners[v]) != on.end(); };
+  for (std::size_t v = 0; v < 4; ++v)
+    if (shared(v) && shared((v + 1) % 4)) return static_cast<int>(v);
+  return -1;
+}
+
 class Finder {
  public:
   Finder(const HexMesh& mesh, int stages) : mesh_(mesh), stages_(stages) {
     for (int s = 0; s < stages; ++s) family_ *= kHexFactor;
   }
 
-  // The hex in which the face of a cell ended up: at each stage the buffer hex on the face, or else the hex
-  // itself.
+  // The hexes in which the face of a cell ended up.
   void add_inner(const SidePlan::Item& item) {
-    LocalId hex = kNone;
-    int face = item.at;
-    check(descend(item.cell, face, stages_, hex), "a hex of a side set is missing");
-    out_.push_back({item.set, hex, face});
-    if (stages_ == 2) add_strips(item);
-  }
-
-  // A surface pillow wraps the buffer hexes of a surface: beside its curves new hexes stand on their side
-  // faces and take a strip of the interface each.
-  void add_strips(const SidePlan::Item& item) {
-    constexpr std::array<int, 4> kStrip{2, 2, 2,
-                                        1};  // of the hex on side face 0..3, beside the top of the old hex
-    const GlobalId buffer = kHexFactor * item.cell + item.at + 1;
-    for (int side = 0; side < 4; ++side)
-      if (const LocalId hex = find(kHexFactor * buffer + side + 1); hex != kNone)
-        out_.push_back({item.set, hex, kStrip[static_cast<std::size_t>(side)]});
+    faces_.assign(1, {item.cell, item.at});
+    GlobalId family = family_;
+    for (int s = 0; s < stages_; ++s) {
+      family /= kHexFactor;
+      next_.clear();
+      for (const auto& [hex, face] : faces_) follow(hex, face, family);
+      faces_.swap(next_);
+    }
+    for (const auto& [id, face] : faces_) {
+      const LocalId hex = find(id);
+      check(hex != kNone, "a hex of a side set is missing");
+      out_.push_back({item.set, hex, face});
+    }
   }
 
   // Faces of all hexes of a cell on one side of the box.
@@ -197,22 +203,30 @@ class Finder {
     const auto it = std::lower_bound(mesh_.hex_id.begin(), mesh_.hex_id.end(), id);
     return it == mesh_.hex_id.end() || *it != id ? kNone : static_cast<LocalId>(it - mesh_.hex_id.begin());
   }
-  bool descend(GlobalId id, int& face, int stages, LocalId& hex) const {
-    if (stages == 0) {
-      hex = find(id);
-      return hex != kNone;
+  // What one pillow makes of a face: the far side of the buffer hex on it. A face without one lies within the
+  // set that was wrapped; it draws back from wrapped faces beside it, and the sides of the buffer hexes on
+  // those take the strips that it leaves. family: ids per hex that the later pillows leave.
+  void follow(GlobalId hex, int face, GlobalId family) {
+    const auto exists = [&](GlobalId id) { return find(family * id) != kNone; };
+    const GlobalId old = kHexFactor * hex;
+    if (exists(old + face + 1)) {
+      next_.push_back({old + face + 1, kTop});
+      return;
     }
-    int top = kTop;
-    if (descend(kHexFactor * id + face + 1, top, stages - 1, hex)) {
-      face = top;
-      return true;
-    }
-    return descend(kHexFactor * id, face, stages - 1, hex);
+    next_.push_back({old, face});
+    for (int g = 0; g < 6; ++g)
+      if (const int side = g == face ? -1 : side_over(g, face); side >= 0 && exists(old + g + 1))
+        next_.push_back({old + g + 1, side});
   }
 
   const HexMesh& mesh_;
   int stages_;
-  GlobalId family_ = 1;
+  GlobalId family_ = 1;  // ids per cell
+  struct HexFace {
+    GlobalId hex;
+    int face;
+  };
+  std::vector<HexFace> faces_, next_;  // of one item, at this stage and the next
   std::vector<SideFace> out_;
 };
 

@@ -46,8 +46,7 @@ GrainCase::GrainCase(int n)
       around(cells) {}
 
 Pillowed GrainCase::pillowed() const {
-  const std::vector<std::uint8_t> keep(cells.hexes.size(), 0);
-  return pillow(Comm::self(), cells, cells.material, keep, kOffset);
+  return pillow(Comm::self(), cells, neighbours, cells.material, {}, {.offset = kOffset});
 }
 
 }  // namespace sculpt

@@ -85,6 +85,50 @@ TEST_F(SameBits, MicroExpand) { expect_same(grains(7, 6, 3), "micro_expand = 2\n
 
 TEST_F(SameBits, PillowSurfaces) { expect_same(grains(8, 6, 5), "pillow_surfaces = true\n", kFew); }
 
+TEST_F(SameBits, PillowCurves) {
+  const Voxels voxels = grains(9, 8, 2);
+  const RankMesh before = expect_same(voxels, "", {2});
+  const double worst = summary(first_console(), "Min Quality");
+  const RankMesh after =
+      expect_same(voxels, "pillow_curves = true\npillow_curve_thresh = 0.5\npillow_curve_layers = 2\n", kFew);
+  EXPECT_GT(hexes_of(after), hexes_of(before));
+  EXPECT_GT(summary(first_console(), "Min Quality"), worst);
+  const RankMesh unsmoothed =
+      expect_same(voxels, "pillow = 202\npillow_curve_thresh = 0.5\ngen_sidesets = variable\n", kFew);
+  EXPECT_EQ(hexes_of(unsmoothed), hexes_of(after)) << "the same layers, not smoothed";
+}
+
+// Usual decks ask for curve and boundary pillows; smoothing leaves nothing for them to do.
+TEST_F(SameBits, PillowsWithNothingToDo) {
+  const RankMesh plain = expect_same(grains(8, 6, 5), "", {2});
+  const RankMesh asked = expect_same(
+      grains(8, 6, 5), "pillow_curves = true\npillow_boundaries = true\npillow_curve_layers = 3\n", kFew);
+  EXPECT_TRUE(asked == plain);
+  EXPECT_TRUE(expect_same(grains(8, 6, 5), "pillow = domain_boundaries\n", {3}) == plain);
+}
+
+TEST_F(SameBits, PillowBoundaryLayers) {
+  const Voxels voxels = grains(8, 6, 5);
+  const RankMesh plain = expect_same(voxels, "", {2});
+  const RankMesh layers = expect_same(voxels, "pillow_boundary_layers = 2\ngen_sidesets = rve\n", kFew);
+  EXPECT_GE(summary(first_console(), "Min Quality"), 0.3);
+  std::size_t on_box = 0;
+  for (const auto& set : layers.side_sets) on_box += set.element.size();
+  EXPECT_EQ(hexes_of(layers), hexes_of(plain) + 2 * static_cast<std::int64_t>(on_box));
+}
+
+TEST_F(SameBits, PillowSmoothOff) {
+  expect_same(grains(7, 6, 5), "pillow_smooth_off = true\ngen_sidesets = variable\n", kFew);
+  expect_same(grains(7, 6, 5), "pillow = 100\n", kFew);
+}
+
+TEST_F(SameBits, StairsHaveNoPillows) {
+  const RankMesh stairs = expect_same(grains(6, 5, 2), "stair = full\n", {2});
+  EXPECT_EQ(first_console().find("WARNING"), std::string::npos);
+  EXPECT_TRUE(expect_same(grains(6, 5, 2), "stair = full\npillow = 1\n", {2}) == stairs);
+  EXPECT_NE(first_console().find("WARNING: stair keeps the cells as they are"), std::string::npos);
+}
+
 TEST_F(SameBits, MicroShave) { expect_same(grains(8, 40, 11), "micro_shave = true\n", kFew); }
 
 TEST_F(SameBits, Defeature) {

@@ -54,9 +54,9 @@ Case random_case(std::uint64_t n) {
 
 constexpr std::uint64_t kCases = 24;
 
-void expect_sound(const Case& input, const StagesResult& result, int pillows) {
+void expect_sound(const Case& input, const StagesResult& result, int pillows, int of_the_box = 0) {
   const HexMesh& mesh = result.mesh;
-  EXPECT_EQ(conformity_problem(mesh, pillows), "") << input.name;
+  EXPECT_EQ(conformity_problem(mesh, pillows, of_the_box), "") << input.name;
   EXPECT_EQ(box_problem(mesh, input.grid), "") << input.name;
   EXPECT_GT(least_scaled_jacobian(mesh), 0) << input.name;
   // Corners are not all: a hex may fold inside.
@@ -90,12 +90,41 @@ TEST(AnyInput, GivesASoundMeshWithSurfacePillows) {
   for (std::uint64_t n = 0; n < kCases; n += 4) {
     const Case input = random_case(n);
     StageOptions options;
-    options.pillow_surfaces = true;
+    options.layers.surfaces = true;
     const StagesResult result = run_stages(Comm::self(), input, options);
     expect_sound(input, result, 2);
     EXPECT_EQ(boundary_problem(result.mesh), "") << input.name;
     EXPECT_NEAR(volume(result.mesh) / volume(input.grid), 1, 1e-12) << input.name;
   }
+}
+
+TEST(AnyInput, GivesASoundMeshWithLayersAlongTheBox) {
+  for (std::uint64_t n = 1; n < kCases; n += 4) {
+    const Case input = random_case(n);
+    StageOptions options;
+    options.layers.boundary_layers = 1 + static_cast<int>(n / 4 % 2);
+    const StagesResult result = run_stages(Comm::self(), input, options);
+    expect_sound(input, result, 1 + options.layers.boundary_layers, options.layers.boundary_layers);
+    EXPECT_EQ(boundary_problem(result.mesh), "") << input.name;
+    EXPECT_NEAR(volume(result.mesh) / volume(input.grid), 1, 1e-12) << input.name;
+  }
+}
+
+TEST(AnyInput, GivesASoundMeshWithLayersAroundCurves) {
+  int with_layers = 0;
+  for (std::uint64_t n = 0; n < kCases; n += 3) {
+    const Case input = random_case(n);
+    StageOptions options;
+    options.layers.curves = true;
+    options.layers.curve_threshold = 0.5;
+    options.layers.curve_layers = 1 + static_cast<int>(n % 2);
+    const StagesResult result = run_stages(Comm::self(), input, options);
+    with_layers += result.pillows == 2;
+    expect_sound(input, result, result.pillows);
+    EXPECT_EQ(boundary_problem(result.mesh), "") << input.name;
+    EXPECT_NEAR(volume(result.mesh) / volume(input.grid), 1, 1e-12) << input.name;
+  }
+  EXPECT_GT(with_layers, 0);
 }
 
 // Other names in the same order change nothing but the names.

@@ -46,8 +46,9 @@ std::string face_text(const HexMesh& mesh, const Face& f) {
   return fmt::format("face {} of hex {}", f.face, mesh.hex_id[at(f.hex)]);
 }
 
-std::string node_problem(const HexMesh& mesh, int pillows) {
-  const GlobalId copies = GlobalId{1} << (6 * pillows);  // ids of the copies of one grid node
+std::string node_problem(const HexMesh& mesh, int pillows, int of_the_box) {
+  const GlobalId copies = GlobalId{1}
+                          << (6 * (pillows - of_the_box) + of_the_box);  // ids of the copies of one grid node
   std::vector<std::uint8_t> used(mesh.position.size(), 0);
   for (const Hex& hex : mesh.hexes) {
     for (const LocalId n : hex) used[at(n)] = 1;
@@ -72,8 +73,8 @@ std::string node_problem(const HexMesh& mesh, int pillows) {
 
 }  // namespace
 
-std::string conformity_problem(const HexMesh& mesh, int pillows) {
-  if (std::string problem = node_problem(mesh, pillows); !problem.empty()) return problem;
+std::string conformity_problem(const HexMesh& mesh, int pillows, int of_the_box) {
+  if (std::string problem = node_problem(mesh, pillows, of_the_box); !problem.empty()) return problem;
   const std::vector<Face> faces = sorted_faces(mesh);
   std::map<std::pair<LocalId, LocalId>, int> boundary_edges;  // directed, minus its opposite
   for (std::size_t i = 0; i < faces.size();) {

@@ -12,8 +12,8 @@ namespace sculpt::test {
 
 // For the mesh of one rank alone: every face has one or two hexes that see it from opposite sides, the
 // boundary is closed, no node is unused, ids ascend, nodes of one colour share no hex unless they stem from
-// one grid node. pillows: how often the mesh was pillowed.
-[[nodiscard]] std::string conformity_problem(const HexMesh& mesh, int pillows = 1);
+// one grid node. pillows: how often the mesh was pillowed; of the box: how often with the box wrapped.
+[[nodiscard]] std::string conformity_problem(const HexMesh& mesh, int pillows = 1, int of_the_box = 0);
 // For the mesh of a box of one rank alone: faces with one hex are exactly the faces on the sides of the box.
 [[nodiscard]] std::string boundary_problem(const HexMesh& mesh);
 // Nodes of a box side stand on it to the last bit, nodes inside the box stand inside.

@@ -1,6 +1,6 @@
 #include "support/stages.hpp"
 
-#include "pipeline/interface_geometry.hpp"
+#include "pipeline/layers.hpp"
 #include "sculpt/contour/contour.hpp"
 #include "sculpt/distribute/cartesian.hpp"
 #include "sculpt/pillow/pillow.hpp"
@@ -8,23 +8,6 @@
 #include "support/mesh_checks.hpp"
 
 namespace sculpt::test {
-namespace {
-
-constexpr double kFirstOffset = 0.3, kSecondOffset = 0.5;  // those of the program
-
-Pillowed pillow_cells(const Comm& comm, const HexMesh& cells, const std::vector<std::uint8_t>& drop,
-                      bool surfaces) {
-  std::vector<std::int32_t> label = cells.material;
-  for (std::size_t c = 0; c < label.size(); ++c)
-    if (drop[c]) label[c] = -1;
-  const Pillowed first = pillow(comm, cells, label, drop, kFirstOffset);
-  if (!surfaces) return first;
-  const std::vector<std::uint8_t> keep(first.mesh.hexes.size(), 0);
-  return stacked(first, pillow(comm, first.mesh, surface_labels(first.mesh), keep, kSecondOffset));
-}
-
-}  // namespace
-
 Overlay overlay(const Comm& comm, const Case& input, int layers) {
   const CartesianParts parts = cut_grid(input.grid.cells, comm.size(), {0, 0, 0});
   Overlay o{lattice_mesh(comm, input.grid, parts, layers),
@@ -50,7 +33,7 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
     if (!problem.empty() && result.ghosts.empty())
       result.ghosts = std::string("after ") + stage + ": " + problem;
   };
-  Overlay o = overlay(comm, input, options.pillow_surfaces ? 3 : 2);
+  Overlay o = overlay(comm, input, options.layers.ghost_layers());
   HexMesh& cells = o.cells;
   note("assign", cells);
   const FaceNeighbours neighbours = face_neighbours(cells);
@@ -77,14 +60,21 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
     result.cells += cells.layer[c] == 0 && !drop[c];
   }
   result.cells = comm.sum(result.cells);
-  Pillowed pillowed = pillow_cells(comm, cells, drop, options.pillow_surfaces);
-  note("pillow", pillowed.mesh);
+  LayeredMesh layered = add_layers(comm, cells, neighbours, drop, faces, deviation_weights(cells, faces),
+                                   options.layers, Log());
+  note("pillow", layered.mesh);
   SmoothOptions volume_smoothing = options.smoothing;
   volume_smoothing.fidelity = input.pure ? 1 : 2.5;
-  smooth_mesh(pillowed.mesh, interface_geometry(pillowed, cells, faces, deviation_weights(cells, faces)),
-              volume_smoothing, Log());
-  note("smooth", pillowed.mesh);
-  result.mesh = std::move(pillowed.mesh);
+  const auto smooth = [&](LayeredMesh& l) { smooth_mesh(l.mesh, l.geometry, volume_smoothing, Log()); };
+  smooth(layered);
+  note("smooth", layered.mesh);
+  if (options.layers.curves) {
+    add_curve_layers(comm, layered, options.layers,
+                     options.layers.smooth_after ? smooth : std::function<void(LayeredMesh&)>{}, Log());
+    note("pillow curves", layered.mesh);
+  }
+  result.pillows = layered.pillows;
+  result.mesh = std::move(layered.mesh);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/layers.hpp"
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/interface_smoothing.hpp"
 #include "sculpt/filter/filter.hpp"
@@ -27,7 +28,7 @@ struct Overlay {
 [[nodiscard]] Overlay filtered(const Case& input);
 
 struct StageOptions {
-  bool pillow_surfaces = false;
+  LayerPlan layers;
   std::int32_t void_material = -1;  // left out of the mesh
   InterfaceSmoothing interfaces;    // whether to project is decided by the input, as the program does
   SmoothOptions smoothing;
@@ -40,6 +41,7 @@ struct StageChecksum {
 
 struct StagesResult {
   HexMesh mesh;
+  int pillows = 0;
   std::int64_t cells = 0;  // that are part of the mesh, all ranks
   std::int64_t quads = 0;  // interface quads of this rank's cells
   std::vector<StageChecksum> checksums;

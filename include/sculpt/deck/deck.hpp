@@ -66,6 +66,8 @@ enum Pillow : int {
   kPillowCurves = 2,
   kPillowDomainBoundaries = 3,
   kPillowSurfacesNoSmoothing = 100,
+  kPillowCurvesNoSmoothing = 200,  // + number of layers
+  kPillowCurvesSmoothed = 210,     // + number of layers
 };
 
 enum Defeature : int { kDefeatureOff = 0, kDefeatureFilter = 1, kDefeatureCollapse = 2, kDefeatureAll = 3 };
@@ -244,6 +246,7 @@ struct Deck {
   int pillow_curve_layers = 3;
   double pillow_curve_thresh = 0.3;
   bool pillow_smooth_off = false;
+  int pillow_boundary_layers = 0;
   int capture = 0;
   double capture_angle = 30;      // degrees
   std::int64_t capture_side = 0;  // 0: all

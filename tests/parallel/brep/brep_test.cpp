@@ -8,7 +8,6 @@
 
 #include "sculpt/deck/deck.hpp"
 #include "sculpt/par/components.hpp"
-#include "sculpt/pillow/pillow.hpp"
 #include "sculpt/write/side_sets.hpp"
 #include "support/cases.hpp"
 #include "support/stages.hpp"
@@ -141,24 +140,19 @@ TEST(Components, FollowJoinsThatOneRankKnows) {
 
 using Listed = std::tuple<std::int64_t, GlobalId, int>;
 
-std::vector<Listed> side_sets(const Comm& comm, const Case& input, int stages, int gen_sidesets,
+std::vector<Listed> side_sets(const Comm& comm, const Case& input, const LayerPlan& layers, int gen_sidesets,
                               std::int32_t left_out) {
-  const Traced t = traced(comm, filtered(comm, input, 1 + stages));
+  const Traced t = traced(comm, filtered(comm, input, layers.ghost_layers()));
   std::vector<std::uint8_t> drop(t.cells.hexes.size(), 0);
-  std::vector<std::int32_t> label = t.cells.material;
-  for (std::size_t c = 0; c < drop.size(); ++c)
-    if (label[c] == left_out) {
-      drop[c] = 1;
-      label[c] = -1;
-    }
+  for (std::size_t c = 0; c < drop.size(); ++c) drop[c] = t.cells.material[c] == left_out;
   const SidePlan plan =
       plan_side_sets(comm, t.cells, t.neighbours, t.faces, t.brep, drop, input.grid.cells, gen_sidesets);
-  HexMesh mesh = pillow(comm, t.cells, label, drop, 0.3).mesh;
-  if (stages == 2)
-    mesh =
-        pillow(comm, mesh, surface_labels(mesh), std::vector<std::uint8_t>(mesh.hexes.size(), 0), 0.5).mesh;
+  LayeredMesh layered = add_layers(comm, t.cells, t.neighbours, drop, t.faces,
+                                   deviation_weights(t.cells, t.faces), layers, Log());
+  if (layers.curves) add_curve_layers(comm, layered, layers, {}, Log());
+  const HexMesh& mesh = layered.mesh;
   std::vector<std::array<std::int64_t, 3>> own;
-  for (const SideFace& f : side_faces(plan, mesh, stages)) {
+  for (const SideFace& f : side_faces(plan, mesh, layered.pillows)) {
     EXPECT_EQ(mesh.layer[at(f.hex)], 0);
     own.push_back({f.set, mesh.hex_id[at(f.hex)], f.face});
   }
@@ -171,13 +165,19 @@ std::vector<Listed> side_sets(const Comm& comm, const Case& input, int stages, i
 
 TEST(SideSets, AreTheSameAloneAndTogether) {
   const Case input = grains({12, 11, 10}, 25, 4, 6);
-  for (const int stages : {1, 2})
+  LayerPlan none, surfaces, curves, boundary, all;
+  surfaces.surfaces = all.surfaces = curves.curves = all.curves = true;
+  curves.curve_threshold = all.curve_threshold = 0.2;
+  curves.curve_layers = all.curve_layers = 1;
+  boundary.boundary_layers = all.boundary_layers = 1;
+  for (const LayerPlan& layers : {none, surfaces, curves, boundary, all})
     for (const int gen_sidesets : {kSidesetsFixed, kSidesetsVariable, kSidesetsRve})
       for (const std::int32_t left_out : {-1, 0}) {
-        SCOPED_TRACE(std::to_string(stages) + " pillows, gen_sidesets " + std::to_string(gen_sidesets));
-        const auto alone = side_sets(Comm::self(), input, stages, gen_sidesets, left_out);
+        SCOPED_TRACE("ghost layers " + std::to_string(layers.ghost_layers()) + ", gen_sidesets " +
+                     std::to_string(gen_sidesets));
+        const auto alone = side_sets(Comm::self(), input, layers, gen_sidesets, left_out);
         EXPECT_FALSE(alone.empty());
-        EXPECT_TRUE(side_sets(Comm::world(), input, stages, gen_sidesets, left_out) == alone);
+        EXPECT_TRUE(side_sets(Comm::world(), input, layers, gen_sidesets, left_out) == alone);
       }
 }
 

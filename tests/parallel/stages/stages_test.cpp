@@ -2,6 +2,8 @@
 // against each rank on its own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sculpt/filter/thicken.hpp"
 #include "sculpt/mesh/adjacency.hpp"
 #include "support/mesh_checks.hpp"
@@ -11,17 +13,19 @@ namespace sculpt::test {
 
 namespace {
 
-void expect_same_alone_and_together(const Case& input, const StageOptions& options = {}) {
+// Answers how many pillows the mesh has.
+int expect_same_alone_and_together(const Case& input, const StageOptions& options = {}) {
   const Comm world = Comm::world();
   const StagesResult together = run_stages(world, input, options),
                      alone = run_stages(Comm::self(), input, options);
-  ASSERT_EQ(together.checksums.size(), alone.checksums.size());
-  for (std::size_t i = 0; i < alone.checksums.size(); ++i)
+  EXPECT_EQ(together.checksums.size(), alone.checksums.size());
+  for (std::size_t i = 0; i < std::min(alone.checksums.size(), together.checksums.size()); ++i)
     EXPECT_EQ(together.checksums[i].checksum, alone.checksums[i].checksum)
         << input.name << ", after " << alone.checksums[i].stage;
   EXPECT_EQ(together.ghosts, "") << input.name;
   EXPECT_EQ(world.sum(owned_hexes(together.mesh)), owned_hexes(alone.mesh)) << input.name;
   EXPECT_EQ(world.sum(together.quads), alone.quads) << input.name;
+  return alone.pillows;
 }
 
 TEST(SameMesh, OfFewerCellsThanRanksNeed) {
@@ -48,8 +52,41 @@ TEST(SameMesh, WithoutTheVoid) {
 
 TEST(SameMesh, WithSurfacePillows) {
   StageOptions options;
-  options.pillow_surfaces = true;
+  options.layers.surfaces = true;
   expect_same_alone_and_together(grains({10, 9, 8}, 12, 5, 7), options);
+}
+
+TEST(SameMesh, WithLayersAlongTheBox) {
+  StageOptions options;
+  options.layers.boundary_layers = 2;
+  expect_same_alone_and_together(grains({9, 8, 7}, 10, 5, 7), options);
+  options.void_material = 0;
+  expect_same_alone_and_together(noise({3, 5, 4}, 3, 1), options);
+}
+
+// The growth and completion of the set around curves cross the borders between ranks.
+TEST(SameMesh, WithLayersAroundCurves) {
+  StageOptions options;
+  options.layers.curves = true;
+  options.layers.curve_threshold = 0.5;
+  for (const int layers : {1, 3})
+    for (const bool smooth : {false, true}) {
+      options.layers.curve_layers = layers;
+      options.layers.smooth_after = smooth;
+      const int pillows = expect_same_alone_and_together(grains({12, 9, 8}, 9, 9, 7), options);
+      if (!smooth) EXPECT_EQ(pillows, 2);
+    }
+}
+
+TEST(SameMesh, WithAllLayers) {
+  StageOptions options;
+  options.void_material = 1;
+  options.layers.surfaces = options.layers.curves = true;
+  options.layers.curve_threshold = 0.4;
+  options.layers.curve_layers = 2;
+  options.layers.boundary_layers = 1;
+  options.layers.smooth_after = false;
+  EXPECT_EQ(expect_same_alone_and_together(grains({9, 8, 7}, 8, 5, 3), options), 4);
 }
 
 TEST(SameMesh, UnderAllCurveRules) {

@@ -57,8 +57,6 @@ scale = 40)"),
 }
 
 TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
-  EXPECT_EQ(verdict(kSpn + "pillow_curves = true"),
-            "option 'pillow_curves' (line 6 of deck.i) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "volfrac_file = v"),
             "option 'volfrac_file' (line 6 of deck.i) is not supported yet");
   EXPECT_EQ(verdict("stl_file = a.stl"), "option 'stl_file' (line 2 of deck.i) is not supported yet");
@@ -76,8 +74,6 @@ TEST(Validate, RefusesUnsupportedValues) {
             "option 'defeature' (line 6 of deck.i): value filter_and_collapse (3) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "gen_sidesets = 9"),
             "option 'gen_sidesets' (line 6 of deck.i): value input_mesh (9) is not supported yet");
-  EXPECT_EQ(verdict(kSpn + "pillow = 3"),
-            "option 'pillow' (line 6 of deck.i): value domain_boundaries (3) is not supported yet");
 }
 
 // Every unsupported switch may be written down as long as it stays off.
@@ -90,6 +86,16 @@ TEST(Validate, AcceptsUnsupportedOptionsThatAreOff) {
               "option '" + name + "' (line 6 of deck.i) is not supported yet");
   }
   EXPECT_EQ(verdict(kSpn + "defeature = off\nadapt_type = 0\nmin_vol_cells = 5\ncapture = 0"), "no error");
+}
+
+TEST(Validate, PillowNumbersAgreeWithTheLongOptions) {
+  for (const char* number : {"0", "1", "2", "3", "100", "202", "205", "212", "215"})
+    EXPECT_EQ(verdict(kSpn + "pillow = " + number), "no error") << number;
+  EXPECT_EQ(verdict(kSpn + "pillow = 213\npillow_curve_layers = 3"), "no error");
+  EXPECT_EQ(verdict(kSpn + "pillow = 2\npillow_curve_layers = 5"), "no error");
+  EXPECT_EQ(verdict(kSpn + "pillow = 214\npillow_curve_layers = 3"),
+            "pillow and pillow_curve_layers ask for different numbers of layers; given: pillow = "
+            "curves_4_layers (line 6 of deck.i), pillow_curve_layers = 3 (line 7 of deck.i)");
 }
 
 TEST(Validate, NeedsExactlyOneGeometry) {

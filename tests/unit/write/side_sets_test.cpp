@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
+#include "pipeline/layers.hpp"
 #include "sculpt/deck/deck.hpp"
-#include "sculpt/pillow/pillow.hpp"
 #include "support/cases.hpp"
 #include "support/stages.hpp"
 
@@ -20,30 +20,47 @@ struct Made {
   std::vector<SideFace> faces;
 };
 
-enum class Hexes { kStair, kPillowed, kPillowedTwice };
+enum class Hexes { kStair, kPillowed, kPillowedTwice, kBoundaryLayers, kCurveLayers, kAllLayers };
+constexpr std::array kAllHexes{Hexes::kStair,          Hexes::kPillowed,    Hexes::kPillowedTwice,
+                               Hexes::kBoundaryLayers, Hexes::kCurveLayers, Hexes::kAllLayers};
+
+LayerPlan plan_of(Hexes kind) {
+  LayerPlan p;
+  p.surfaces = kind == Hexes::kPillowedTwice || kind == Hexes::kAllLayers;
+  p.curves = kind == Hexes::kCurveLayers || kind == Hexes::kAllLayers;
+  p.curve_layers = 1;
+  p.curve_threshold = kind == Hexes::kCurveLayers ? 0.35 : 0.1;
+  p.boundary_layers = kind == Hexes::kBoundaryLayers ? 1 : kind == Hexes::kAllLayers ? 2 : 0;
+  return p;
+}
 
 // The mesh with its side sets; `left_out` is a material that is not meshed.
 Made made(const Case& input, Hexes kind, int gen_sidesets, std::int32_t left_out = -1) {
   const Comm comm = Comm::self();
-  const HexMesh cells = filtered(comm, input, kind == Hexes::kPillowedTwice ? 3 : 2).cells;
+  const LayerPlan layers = plan_of(kind);
+  const HexMesh cells = filtered(comm, input, layers.ghost_layers()).cells;
   const FaceNeighbours neighbours = face_neighbours(cells);
   const Interfaces faces = trace_interfaces(cells, neighbours);
   const Brep brep = build_brep(comm, cells, neighbours, faces);
   std::vector<std::uint8_t> drop(cells.hexes.size(), 0);
-  std::vector<std::int32_t> label(cells.hexes.size(), -1);
-  for (std::size_t c = 0; c < drop.size(); ++c) {
-    drop[c] = cells.material[c] == left_out;
-    if (kind != Hexes::kStair && !drop[c]) label[c] = cells.material[c];
-  }
+  for (std::size_t c = 0; c < drop.size(); ++c) drop[c] = cells.material[c] == left_out;
   const SidePlan plan =
       plan_side_sets(comm, cells, neighbours, faces, brep, drop, input.grid.cells, gen_sidesets);
-  Made m{pillow(comm, cells, label, drop, 0.3).mesh, {}};
-  if (kind == Hexes::kPillowedTwice)
-    m.mesh =
-        pillow(comm, m.mesh, surface_labels(m.mesh), std::vector<std::uint8_t>(m.mesh.hexes.size(), 0), 0.5)
-            .mesh;
-  m.faces = side_faces(plan, m.mesh, kind == Hexes::kPillowedTwice ? 2 : 1);
-  return m;
+  if (kind == Hexes::kStair) {
+    const std::vector<std::int32_t> none(cells.hexes.size(), -1);
+    HexMesh mesh = pillow(comm, cells, neighbours, none, drop, {}).mesh;
+    std::vector<SideFace> side = side_faces(plan, mesh, 1);
+    return {std::move(mesh), std::move(side)};
+  }
+  LayeredMesh m =
+      add_layers(comm, cells, neighbours, drop, faces, deviation_weights(cells, faces), layers, Log());
+  const int before = m.pillows;
+  if (layers.curves) {
+    add_curve_layers(comm, m, layers, {}, Log());
+    EXPECT_EQ(m.pillows, before + 1) << "a layer around curves";
+  }
+  std::vector<SideFace> side = side_faces(plan, m.mesh, m.pillows);
+  return {std::move(m.mesh), std::move(side)};
 }
 
 std::vector<std::int64_t> sizes(const std::vector<SideFace>& faces) {
@@ -141,7 +158,7 @@ std::string fixed_problem(const Made& m) {
 
 TEST(SideSets, FixedHoldExactlyTheBoundaryAndTheInterfacesOfTheMesh) {
   const Case input = grains({9, 8, 10}, 12, 4, 3);
-  for (const Hexes kind : {Hexes::kStair, Hexes::kPillowed, Hexes::kPillowedTwice})
+  for (const Hexes kind : kAllHexes)
     for (const std::int32_t left_out : {-1, 0, 2}) {
       const Made m = made(input, kind, kSidesetsFixed, left_out);
       EXPECT_EQ(fixed_problem(m), "") << static_cast<int>(kind) << ' ' << left_out;
@@ -152,7 +169,7 @@ TEST(SideSets, FixedHoldExactlyTheBoundaryAndTheInterfacesOfTheMesh) {
 // materials.
 TEST(SideSets, VariablePartTheFacesOfFixed) {
   const Case input = grains({9, 8, 10}, 12, 4, 3);
-  for (const Hexes kind : {Hexes::kStair, Hexes::kPillowed, Hexes::kPillowedTwice}) {
+  for (const Hexes kind : kAllHexes) {
     const Made whole = made(input, kind, kSidesetsFixed, 2), parts = made(input, kind, kSidesetsVariable, 2);
     std::map<std::pair<LocalId, int>, std::int64_t> fixed;
     for (const SideFace& f : whole.faces) fixed[{f.hex, f.face}] = f.set;

@@ -85,6 +85,15 @@ Vec3 onto_interface(const HexMesh& mesh, const Interfaces& faces, const std::vec
   return on_surface(p, in_cells, crossings, items);
 }
 
+Vec3 onto_geometry(const HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
+                   const ExactSurface& exact, std::size_t i, const Vec3& p) {
+  if (exact && faces.kind[i] == NodeClass::kSurface) {
+    const auto [a, b] = Interfaces::materials(mesh, faces.quads[at(faces.node_quads[i][0] / 4)]);
+    if (const std::optional<Vec3> known = exact(p, a, b)) return *known;
+  }
+  return onto_interface(mesh, faces, crossings, i, p);
+}
+
 void place_nodes(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings) {
   const int rank = mesh.node_exchange.comm().rank();
   const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};

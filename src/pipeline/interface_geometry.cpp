@@ -1,6 +1,7 @@
 #include "pipeline/interface_geometry.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace sculpt {
@@ -57,6 +58,15 @@ SurfacePoint beside_curve(const HexMesh& cells, const Interfaces& faces, LocalId
            along * n.y * n.z, kSliding + along * n.z * n.z}};
 }
 
+// Onto the plane through a point across the direction that the weight holds.
+Vec3 onto_plane(const Vec3& target, const Weight& w, const Vec3& p) {
+  const Vec3 d = p - target;
+  const Vec3 held = {(w[0] - kSliding) * d.x + w[1] * d.y + w[2] * d.z,
+                     w[1] * d.x + (w[3] - kSliding) * d.y + w[4] * d.z,
+                     w[2] * d.x + w[4] * d.y + (w[5] - kSliding) * d.z};
+  return p - (1 / (1 - kSliding)) * held;
+}
+
 }  // namespace
 
 Pillowed stacked(const Pillowed& first, Pillowed second) {
@@ -91,6 +101,30 @@ Geometry interface_geometry(Pillowed& pillowed, const HexMesh& cells, const Inte
   }
   mesh.node_exchange.copy_to_ghosts(mesh.position);
   return g;
+}
+
+void hold(Geometry& geometry, const Pillowed& pillowed, HeldInterface interface) {
+  const auto held = std::make_shared<const HeldInterface>(std::move(interface));
+  // Per entry of the geometry its interface node; copies that a surface pillow made have none.
+  std::vector<LocalId> node(geometry.target.size(), kNone);
+  for (std::size_t n = 0; n < pillowed.source.size(); ++n)
+    if (geometry.index[n] != kNone && pillowed.copied[n] == 0)
+      node[at(geometry.index[n])] = held->faces.index_of[at(pillowed.source[n])];
+  const auto quadrics = std::make_shared<std::vector<Quadric>>();
+  if (held->quadrics)
+    for (std::size_t i = 0; i < held->faces.nodes.size(); ++i)
+      quadrics->push_back(surface_quadric(held->cells, held->faces, i, [&](LocalId other) {
+        return held->cells.position[at(held->faces.nodes[at(other)])];
+      }));
+  geometry.onto = [held, quadrics, node, targets = geometry.target, weights = geometry.weight](
+                      LocalId entry, const Vec3& p) {
+    const LocalId i = node[at(entry)];
+    if (i == kNone) return onto_plane(targets[at(entry)], weights[at(entry)], p);
+    if (!held->quadrics)
+      return onto_geometry(held->cells, held->faces, held->crossings, held->exact, at(i), p);
+    return held->faces.kind[at(i)] == NodeClass::kSurface ? onto_quadric((*quadrics)[at(i)], p)
+                                                          : targets[at(entry)];
+  };
 }
 
 }  // namespace sculpt

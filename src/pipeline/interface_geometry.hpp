@@ -18,4 +18,17 @@ namespace sculpt {
 [[nodiscard]] Geometry interface_geometry(Pillowed& pillowed, const HexMesh& cells, const Interfaces& faces,
                                           const std::vector<Weight>& weights);
 
+// What interface nodes are held to after the contour: the reconstructed interface or the exact surface, or,
+// for the published method on data without one, the quadrics of the smoothed interface.
+struct HeldInterface {
+  HexMesh cells;  // nodes where the smoothed contour has them
+  Interfaces faces;
+  std::vector<Crossing> crossings;
+  ExactSurface exact;
+  bool quadrics = false;
+};
+
+// Local. Fills geometry.onto; the mesh must be the one that geometry was made for, before smoothing.
+void hold(Geometry& geometry, const Pillowed& pillowed, HeldInterface interface);
+
 }  // namespace sculpt

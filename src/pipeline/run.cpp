@@ -38,6 +38,7 @@ struct Overlay {
   std::optional<NodeHexes> around;
   Index3 grid{0, 0, 0};  // cells per axis, all ranks
   bool pure = true;      // on all ranks every cell holds one material only
+  ExactSurface exact;    // what the input knows of its surfaces
 };
 
 bool surface_pillows(const Deck& deck) { return deck.pillow_surfaces || deck.pillow == kPillowSurfaces; }
@@ -74,7 +75,8 @@ Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages&
                   {},
                   {},
                   grid.cells,
-                  true};
+                  true,
+                  source->exact_surface()};
   const bool pure = overlay.fractions.material.size() == static_cast<std::size_t>(overlay.fractions.cells());
   overlay.pure = comm.min(std::int64_t{pure}) == 1;
   if (deck.micro_expand > 0)
@@ -133,10 +135,17 @@ void classify(const Comm& comm, const Deck& deck, Overlay& overlay, const Log& l
   stages.end("resolve non-manifolds");
 }
 
+// Whether smoothing the volume needs to know where the interface is, and not only where its nodes are.
+bool holds_interfaces(const Deck& deck) {
+  return deck.smooth == kSmoothToGeometry || deck.smooth == kSmoothGeoSmooth ||
+         (deck.smooth != kSmoothOff && deck.opt_method == kOptJacobi);
+}
+
 // Interface nodes placed and smoothed on the overlay grid; what the smoother must know of them.
 struct Contour {
   Interfaces faces;
   std::vector<Weight> weights;
+  std::vector<Crossing> crossings;  // kept where holds_interfaces()
 };
 
 Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stages) {
@@ -144,15 +153,17 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
   Contour c;
   c.faces = trace_interfaces(cells, overlay.neighbours);
   log.line("(4/9) computing dual edge intersections...");
-  const std::vector<Crossing> crossings = edge_crossings(cells, c.faces, overlay.fractions, *overlay.around);
+  c.crossings = edge_crossings(cells, c.faces, overlay.fractions, *overlay.around);
   log.line("(5/9) computing material interfaces...");
   std::vector<Vec3> grid_position;
   for (const LocalId n : c.faces.nodes) grid_position.push_back(cells.position[static_cast<std::size_t>(n)]);
-  place_nodes(cells, c.faces, crossings);
+  place_nodes(cells, c.faces, c.crossings);
   stages.end("contour");
   if (deck.smooth != kSmoothOff)
-    smooth_interface(cells, c.faces, crossings, grid_position, interface_smoothing(deck, overlay.pure));
+    smooth_interface(cells, c.faces, c.crossings, grid_position,
+                     interface_smoothing(deck, overlay.pure, overlay.exact));
   c.weights = deviation_weights(cells, c.faces);
+  if (!holds_interfaces(deck)) c.crossings = {};
   stages.end("smooth interfaces");
   return c;
 }
@@ -163,7 +174,7 @@ Contour stair_interfaces(Overlay& overlay, const std::vector<std::uint8_t>& drop
   log.line("(5/9) computing material interfaces...");
   for (std::size_t c = 0; c < drop.size(); ++c)
     if (drop[c]) overlay.cells.material[c] = -1;
-  return {trace_interfaces(overlay.cells, overlay.neighbours), {}};
+  return {trace_interfaces(overlay.cells, overlay.neighbours), {}, {}};
 }
 
 SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& overlay,
@@ -183,7 +194,7 @@ HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, SidePlan
   const std::vector<std::uint8_t> drop = unmeshed_cells(deck, overlay);
   refuse_empty_mesh(comm, overlay, drop);
   const bool stair = deck.stair != kStairOff;
-  const Contour shape = stair ? stair_interfaces(overlay, drop, log) : contour(deck, overlay, log, stages);
+  Contour shape = stair ? stair_interfaces(overlay, drop, log) : contour(deck, overlay, log, stages);
   overlay.fractions = {};
   overlay.around.reset();
   sides = generate_geometry(comm, deck, overlay, shape.faces, drop, log);
@@ -205,13 +216,19 @@ HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, SidePlan
     const std::vector<std::uint8_t> keep(result.mesh.hexes.size(), 0);
     result = stacked(result, pillow(comm, result.mesh, surface_labels(result.mesh), keep, kSecondOffset));
   }
-  const Geometry geometry = interface_geometry(result, overlay.cells, shape.faces, shape.weights);
+  Geometry geometry = interface_geometry(result, overlay.cells, shape.faces, shape.weights);
+  if (holds_interfaces(deck)) {
+    const bool quadrics = deck.opt_method == kOptJacobi && deck.smooth != kSmoothToGeometry && overlay.pure;
+    hold(geometry, result,
+         {std::move(overlay.cells), std::move(shape.faces), std::move(shape.crossings),
+          deck.smooth == kSmoothToGeometry ? overlay.exact : ExactSurface{}, quadrics});
+  }
   overlay.cells = {};
   stages.end("generate hexes");
   log.line("(9/9) begin smoothing...");
   if (deck.smooth != kSmoothOff) {
     print_smoothing_banner(log, deck);
-    smooth_mesh(result.mesh, geometry, smooth_options(deck, overlay.pure), log);
+    smooth_mesh(result.mesh, geometry, smooth_options(deck, overlay.pure, result.mesh.cell_size), log);
   }
   stages.end("smooth volume");
   return std::move(result.mesh);

@@ -75,6 +75,51 @@ double NodeStep::price(LocalId node, const StepRules& rules) const {
   return price;
 }
 
+Vec3 NodeStep::towards_geometry(LocalId node, const Vec3& from) const {
+  return held_on_box(geometry_.onto(geometry_.index[at(node)], from) - from, mesh_.box_sides[at(node)]);
+}
+
+// A node that is beyond the limit already may come nearer.
+bool NodeStep::too_far(LocalId node, const Vec3& step, double farthest) const {
+  const Vec3& here = mesh_.position[at(node)];
+  Vec3 there = here;
+  for (std::size_t d = 0; d < 3; ++d) there[d] += step[d] / scale_[d];
+  const double distance = norm(towards_geometry(node, there));
+  return distance > farthest && distance >= norm(towards_geometry(node, here));
+}
+
+bool NodeStep::fit(LocalId node, const StepRules& rules) {
+  star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale_, Star::Target::kPresent);
+  const Star::Shape now = star_.shape({});
+  Vec3& p = mesh_.position[at(node)];
+  Vec3 move = towards_geometry(node, p);
+  for (int halving = 0; halving < 4; ++halving, move = 0.5 * move) {
+    const Star::Shape there = star_.shape(scaled(move, scale_));
+    if (there.scaled_jacobian < std::min(now.scaled_jacobian, rules.least_quality) ||
+        there.edge < std::min(now.edge, rules.least_edge))
+      continue;
+    p += move;
+    return true;
+  }
+  return false;
+}
+
+bool NodeStep::pull_back(LocalId node, double farthest) {
+  constexpr int kTries = 5;  // the point of the geometry moves with the node
+  constexpr double kInside = 0.98;
+  if (geometry_.index[at(node)] == kNone) return false;
+  Vec3& p = mesh_.position[at(node)];
+  bool moved = false;
+  for (int i = 0; i < kTries; ++i) {
+    const Vec3 back = towards_geometry(node, p);
+    const double distance = norm(back);
+    if (!(distance > farthest)) break;
+    p += (1 - kInside * farthest / distance) * back;
+    moved = true;
+  }
+  return moved;
+}
+
 bool NodeStep::newton(LocalId node, const StepRules& rules) {
   star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale_, rules.target_lengths);
   Derivatives at0 = star_.derivatives(rules.power, rules.eps);
@@ -100,6 +145,7 @@ bool NodeStep::newton(LocalId node, const StepRules& rules) {
   if (length > longest) step = (longest / length) * step;
   if (!(std::min(length, longest) >= rules.least_move)) return false;
 
+  const bool limited = entry != kNone && std::isfinite(rules.farthest);
   Star::Shape floor{-2, 0};
   if (rules.guarded) {
     const Star::Shape now = star_.shape({});
@@ -111,6 +157,7 @@ bool NodeStep::newton(LocalId node, const StepRules& rules) {
                               ? there.energy
                               : there.energy + price_of * quadratic(geometry_.weight[at(entry)], off + step);
     if (!(energy < at0.energy) || there.not_positive > at0.not_positive) continue;
+    if (limited && too_far(node, step, rules.farthest)) continue;
     if (rules.guarded) {
       const Star::Shape shape = star_.shape(step);
       if (shape.scaled_jacobian < floor.scaled_jacobian || shape.edge < floor.edge) continue;
@@ -123,12 +170,13 @@ bool NodeStep::newton(LocalId node, const StepRules& rules) {
   return false;
 }
 
-bool NodeStep::climb(LocalId node, double least_edge) {
+bool NodeStep::climb(LocalId node, const StepRules& rules) {
   constexpr double kDifference = 1e-5, kBand = 0.02;
   constexpr int kMost = 10;
   bool any = false;
   Vec3& p = mesh_.position[at(node)];
   const std::uint8_t sides = mesh_.box_sides[at(node)];
+  const bool limited = geometry_.index[at(node)] != kNone && std::isfinite(rules.farthest);
   for (int round = 0; round < 5; ++round) {
     star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale_, Star::Target::kPresent);
     const Star::Shape now = star_.shape({});
@@ -173,8 +221,10 @@ bool NodeStep::climb(LocalId node, double least_edge) {
     bool raised = false;
     for (int halving = 0; halving < 7 && !raised; ++halving, step = 0.5 * step) {
       const Star::Shape there = star_.shape(step);
-      if (there.scaled_jacobian <= now.scaled_jacobian + 1e-4 || there.edge < std::min(now.edge, least_edge))
+      if (there.scaled_jacobian <= now.scaled_jacobian + 1e-4 ||
+          there.edge < std::min(now.edge, rules.least_edge))
         continue;
+      if (limited && too_far(node, step, rules.farthest)) continue;
       for (std::size_t d = 0; d < 3; ++d)
         if (step[d] != 0) p[d] += step[d] / scale_[d];
       raised = any = true;

@@ -6,36 +6,76 @@
 #include "smooth/active_set.hpp"
 #include "smooth/laplacian.hpp"
 #include "smooth/node_step.hpp"
+#include "smooth/published.hpp"
 
 namespace sculpt {
 namespace {
 
 constexpr int kUntangleSweeps = 60, kBulkSweeps = 3, kUntangleRound = 15;
 constexpr int kRaiseAttempts = 3, kUnfoldSweeps = 6;
-constexpr int kAttempts = 3;      // of all phases, each from another place
-constexpr double kFolded = 1e-6;  // the quality that marks a folded hex is below this
-constexpr double kFar = 0.05;     // a move that makes the neighbours worth another visit, in cells
-constexpr double kMargin = 0.05;  // hexes this little above the target are raised as well
+constexpr int kAttempts = 3;        // of all phases, each from another place
+constexpr double kFolded = 1e-6;    // the quality that marks a folded hex is below this
+constexpr double kFar = 0.05;       // a move that makes the neighbours worth another visit, in cells
+constexpr double kMargin = 0.05;    // hexes this little above the target are raised as well
+constexpr double kGiveWay = 0.3;    // price of deviation from one round of the guarantee to the next
+constexpr double kNoPrice = 1e-5;   // of deviation: lowering it further changes nothing
+constexpr double kLowPrice = 0.02;  // interface nodes may climb whatever the deviation
+constexpr int kFitRounds = 12;
+constexpr double kFitted = 0.002;  // distance from the geometry that is not worth a move, in cells
+
+// What raising works towards.
+struct Aim {
+  double target;       // scaled Jacobian
+  double fidelity;     // price of deviation
+  int sweeps;          // most of them
+  bool tells;          // a line in the log per sweep
+  bool climbs_freely;  // interface nodes climb at any price
+  int done = 0;
+};
 
 class Phases {
  public:
   Phases(HexMesh& mesh, const Geometry& geometry, const SmoothOptions& options, const Log& log)
       : mesh_(mesh),
-        geometry_(geometry),
+        own_targets_(options.hold_on_geometry ? geometry : Geometry{}),
+        geometry_(options.hold_on_geometry ? own_targets_ : geometry),
         options_(options),
         log_(log),
         set_(mesh),
-        step_(mesh, set_.around(), geometry) {
+        step_(mesh, set_.around(), geometry_),
+        farthest_(options.max_deviation),
+        floor_(options.target) {
     const Vec3& h = mesh.cell_size;
     per_axis_ = {1 / h.x, 1 / h.y, 1 / h.z};
-    const double size = h.x == h.y && h.y == h.z ? h.x : std::cbrt(h.x * h.y * h.z);
-    isotropic_ = {1 / size, 1 / size, 1 / size};
+    size_ = h.x == h.y && h.y == h.z ? h.x : std::cbrt(h.x * h.y * h.z);
+    isotropic_ = {1 / size_, 1 / size_, 1 / size_};
   }
 
   void run() {
     log_.line("Smoothing {} hexes on {} processors", set_.comm().sum(owned_hexes()), set_.comm().size());
     laplacian_passes(mesh_, set_.around(), geometry_, options_.laplacian_passes, log_);
+    if (limited()) pull_back_all();
     set_.refresh_all_quality();
+    if (options_.method == OptimisationMethod::kPublished)
+      optimise_as_published(set_, geometry_, options_, log_);
+    else
+      optimise();
+    if (options_.hold_on_geometry) fit(kFitted * size_);
+    if (limited()) fit(farthest_);
+    if (options_.guarantee_rounds > 0) guarantee();
+    if (options_.hold_on_geometry || limited()) report_deviation();
+    if (set_.worst(floor_).below_target > 0) print_worst_hexes(mesh_, floor_, log_);
+  }
+
+ private:
+  [[nodiscard]] std::int64_t owned_hexes() const {
+    return std::count(mesh_.layer.begin(), mesh_.layer.end(), std::uint8_t{0});
+  }
+
+  [[nodiscard]] bool limited() const { return std::isfinite(options_.max_deviation); }
+  [[nodiscard]] bool on_interface(LocalId n) const { return geometry_.index[at(n)] != kNone; }
+
+  void optimise() {
     for (int attempt = 1; attempt <= kAttempts; ++attempt) {
       untangle();
       improve();
@@ -45,12 +85,8 @@ class Phases {
     }
   }
 
- private:
-  [[nodiscard]] std::int64_t owned_hexes() const {
-    return std::count(mesh_.layer.begin(), mesh_.layer.end(), std::uint8_t{0});
-  }
-
   std::int64_t sweep(const StepRules& rules, double far) {
+    if (options_.hold_on_geometry) retarget();
     return set_.sweep([&](LocalId n) { return step_.newton(n, rules); }, far);
   }
 
@@ -60,9 +96,32 @@ class Phases {
               w.below_02, w.quality);
   }
 
+  // Nodes that are held on the geometry may slide: each aims at the point that belongs to where it is now.
+  void retarget() {
+    for (LocalId n = 0; n < mesh_.nodes(); ++n)
+      if (on_interface(n) && set_.owned(n)) {
+        const Vec3& p = mesh_.position[at(n)];
+        own_targets_.target[at(geometry_.index[at(n)])] = p + step_.towards_geometry(n, p);
+      }
+  }
+  void pull_back_all() {
+    for (LocalId n = 0; n < mesh_.nodes(); ++n)
+      if (set_.owned(n)) step_.pull_back(n, farthest_);
+    mesh_.node_exchange.copy_to_ghosts(mesh_.position);
+  }
+
+  // Positive determinants everywhere. A limit of deviation is given up only where hexes stay inverted.
+  void untangle() {
+    untangle_within_limit();
+    if (!limited() || set_.worst(options_.target).not_positive == 0) return;
+    log_.line("Untangling goes on beyond the limit of deviation");
+    farthest_ = std::numeric_limits<double>::infinity();
+    untangle_within_limit();
+    farthest_ = options_.max_deviation;
+  }
   // Positive determinants everywhere: minimise the regularised energy while the regularisation falls with the
   // worst determinant. Determinants do not care about a scaling of the axes, so cells count as cubes here.
-  void untangle() {
+  void untangle_within_limit() {
     step_.set_scale(per_axis_);
     StepRules rules;
     rules.guarded = false;
@@ -70,6 +129,7 @@ class Phases {
     rules.least_move = 1e-5;
     rules.release_curves_below = options_.release_curves_below;
     rules.penalty = options_.fidelity;
+    rules.farthest = farthest_;
     int layers = 1;
     double eps = 0;
     for (int i = 0; i < kUntangleSweeps; ++i) {
@@ -96,6 +156,7 @@ class Phases {
       set_.sweep(
           [&](LocalId n) {
             mesh_.position[static_cast<std::size_t>(n)] += towards_neighbours(mesh_, set_.around(), n);
+            if (std::isfinite(farthest_)) step_.pull_back(n, farthest_);
             return true;
           },
           kFar);
@@ -113,6 +174,7 @@ class Phases {
     rules.least_quality = options_.target;
     rules.release_curves_below = options_.release_curves_below;
     rules.penalty = options_.fidelity;
+    rules.farthest = farthest_;
     std::int64_t first = 0;
     for (int i = 0; i < options_.improve_sweeps; ++i) {
       const std::int64_t nodes = set_.choose(options_.improve_below, 1, i > 0);
@@ -133,45 +195,115 @@ class Phases {
       return;
     }
     log_.line("Begin parallel color smoothing {} nodes below threshold {:f}", nodes, options_.target);
-    int round = 0;
-    double fidelity = options_.fidelity;
+    Aim aim{options_.target, options_.fidelity, options_.target_rounds, true, true};
     for (int attempt = 0; attempt < kRaiseAttempts && set_.worst(options_.target).below_target > 0;
          ++attempt) {
-      steepen(fidelity, round);
-      climb(round);
-      fidelity *= 0.1;
+      steepen(aim);
+      climb(aim);
+      aim.fidelity *= 0.1;
     }
     if (set_.worst(options_.target).below_target > 0)
       log_.line("WARNING: Smoothing terminated. Unable to make additional improvement.");
   }
-  void steepen(double fidelity, int& round) {
-    StepRules rules = raising_rules(fidelity);
+  void steepen(Aim& aim) {
+    StepRules rules = raising_rules(aim.fidelity);
     for (rules.power = 2; rules.power <= 8; rules.power *= 2) {
       rules.penalty *=
-          std::pow(1 / options_.target, rules.power / 4.0);  // keeps pace with the energy at the target
-      for (int i = 0; i < 4 && round < options_.target_rounds; ++i) {
-        if (set_.choose(options_.target + kMargin, 1, false) == 0) return;
+          std::pow(1 / aim.target, rules.power / 4.0);  // keeps pace with the energy at the target
+      for (int i = 0; i < 4 && aim.done < aim.sweeps; ++i) {
+        if (set_.choose(aim.target + kMargin, 1, false) == 0) return;
         const std::int64_t moves = sweep(rules, kFar);
-        report_target(++round, moves);
+        report_target(aim, moves);
         if (moves == 0) break;
       }
     }
   }
-  void climb(int& round) {
-    StepRules rules = raising_rules(0);
+  void climb(Aim& aim) {
+    const bool freely = aim.climbs_freely || aim.fidelity < kLowPrice;
+    StepRules rules = raising_rules(freely ? 0 : aim.fidelity);
     rules.power = 4;
-    for (int i = 0; i < 24 && round < options_.target_rounds; ++i) {
-      if (set_.choose(options_.target, 0, false) == 0) return;
-      const std::int64_t moves =
-          set_.sweep([&](LocalId n) { return step_.climb(n, rules.least_edge); }, kFar);
-      report_target(++round, moves);
+    const auto step = [&](LocalId n) { return (freely || !on_interface(n)) && step_.climb(n, rules); };
+    for (int i = 0; i < 24 && aim.done < aim.sweeps; ++i) {
+      if (set_.choose(aim.target, 0, false) == 0) return;
+      const std::int64_t moves = set_.sweep(step, kFar);
+      report_target(aim, moves);
       if (moves == 0) return;
       if (i % 4 == 3) {
-        set_.choose(options_.target, 1, false);
+        set_.choose(aim.target, 1, false);
         sweep(rules, kFar);
       }
     }
   }
+
+  // Guaranteed quality: around the hexes below it interfaces give way a little more in every round.
+  void guarantee() {
+    const double goal = options_.guarantee;
+    if (set_.worst(goal).not_positive > 0) untangle();
+    floor_ = std::max(options_.target, goal);
+    step_.set_scale(isotropic_);
+    const std::vector<Vec3> before = mesh_.position;
+    Aim aim{goal, options_.fidelity, std::numeric_limits<int>::max(), false, false};
+    std::int64_t left = set_.worst(goal).below_target;
+    for (int i = 1; i <= options_.guarantee_rounds && left > 0; ++i, aim.fidelity *= kGiveWay) {
+      steepen(aim);
+      climb(aim);
+      unfold();
+      const ActiveSet::Worst w = set_.worst(goal);
+      left = w.below_target;
+      log_.line(
+          "Guaranteed Quality Iter: {}, Num below {:g}: {}, Min SJ: {:f}, farthest interface node: {:f} "
+          "cells",
+          i, goal, left, w.quality, farthest_of_moved(before));
+      if (aim.fidelity < kNoPrice) break;
+    }
+    if (left > 0)
+      log_.line("WARNING: {} hexes stay below the guaranteed quality {:g}", left, goal);
+    else
+      log_.line("Guaranteed quality {:g} holds", goal);
+  }
+  // Largest distance, in cells, from its target that an interface node has which is not where it was before.
+  [[nodiscard]] double farthest_of_moved(const std::vector<Vec3>& before) const {
+    double farthest = 0;
+    for (LocalId n = 0; n < mesh_.nodes(); ++n) {
+      const Vec3& p = mesh_.position[at(n)];
+      if (on_interface(n) && set_.owned(n) && !(p == before[at(n)]))
+        farthest = std::max(farthest, norm(p - geometry_.target[at(geometry_.index[at(n)])]) / size_);
+    }
+    return set_.comm().max(farthest);
+  }
+
+  // Interface nodes farther than `tolerance` from the geometry go back to it as far as the floor allows;
+  // between the rounds the nodes around them make room.
+  void fit(double tolerance) {
+    step_.set_scale(isotropic_);
+    StepRules rules = raising_rules(options_.fidelity);
+    rules.power = 2;
+    for (int i = 0; i < kFitRounds; ++i) {
+      const auto is_off = [&](LocalId n) {
+        return on_interface(n) && norm(step_.towards_geometry(n, mesh_.position[at(n)])) > tolerance;
+      };
+      if (set_.choose_if(is_off) == 0) break;
+      if (set_.sweep([&](LocalId n) { return step_.fit(n, rules); }, 0) == 0) break;
+      set_.choose(floor_ + kMargin, 1, true);
+      set_.sweep([&](LocalId n) { return !on_interface(n) && step_.newton(n, rules); }, kFar);
+    }
+    unfold();
+  }
+  void report_deviation() const {
+    double farthest = 0;
+    std::int64_t beyond = 0;
+    for (LocalId n = 0; n < mesh_.nodes(); ++n) {
+      if (!on_interface(n) || !set_.owned(n)) continue;
+      const double distance = norm(step_.towards_geometry(n, mesh_.position[at(n)]));
+      farthest = std::max(farthest, distance);
+      beyond += distance > options_.max_deviation;
+    }
+    log_.line("Interface nodes are at most {:f} cells from the geometry", set_.comm().max(farthest) / size_);
+    beyond = set_.comm().sum(beyond);
+    if (beyond > 0)
+      log_.line("WARNING: {} interface nodes are farther from it than {:g}", beyond, options_.max_deviation);
+  }
+
   // The Jacobian can fail inside a hex whose corners are fine: more shape for the nodes of such hexes. Tells
   // whether none is left; otherwise those left count as hexes of quality 0.
   bool unfold() {
@@ -191,25 +323,32 @@ class Phases {
   }
   [[nodiscard]] StepRules raising_rules(double fidelity) const {
     StepRules rules;
-    rules.least_quality = options_.target;
+    rules.least_quality = floor_;
     rules.least_move = 1e-4;
+    rules.farthest = farthest_;
     rules.release_curves_below = options_.release_curves_below;
     rules.penalty = fidelity;
     return rules;
   }
-  void report_target(int round, std::int64_t moves) const {
-    const ActiveSet::Worst w = set_.worst(options_.target);
-    log_.line("Coloring Opt Iter: {}, Num Smooths: {}, Num bad: {}, Num poor: {}, Min SJ: {:f}", round, moves,
-              w.not_positive, w.below_target, w.quality);
+  void report_target(Aim& aim, std::int64_t moves) const {
+    ++aim.done;
+    if (!aim.tells) return;
+    const ActiveSet::Worst w = set_.worst(aim.target);
+    log_.line("Coloring Opt Iter: {}, Num Smooths: {}, Num bad: {}, Num poor: {}, Min SJ: {:f}", aim.done,
+              moves, w.not_positive, w.below_target, w.quality);
   }
 
   HexMesh& mesh_;
+  Geometry own_targets_;  // of nodes that are held on the geometry
   const Geometry& geometry_;
   const SmoothOptions& options_;
   const Log& log_;
   ActiveSet set_;
   NodeStep step_;
   Vec3 per_axis_, isotropic_;
+  double size_ = 1;  // of a cell
+  double farthest_;  // limit of deviation of the present phase
+  double floor_;     // quality that no step may fall below
 };
 
 }  // namespace

@@ -67,7 +67,7 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   place_nodes(cells, faces, crossings);
   note("contour", cells);
   InterfaceSmoothing smoothing = options.interfaces;
-  smoothing.project = !input.pure;
+  if (!input.pure) smoothing.projection = SurfaceProjection::kInterface;
   smooth_interface(cells, faces, crossings, grid_position, smoothing);
   note("smooth interfaces", cells);
 

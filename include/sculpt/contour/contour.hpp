@@ -34,6 +34,11 @@ struct Crossing {
                                   const std::vector<Crossing>& crossings, std::size_t interface_node,
                                   const Vec3& p);
 
+// Local. As onto_interface, but a surface node goes to the exact surface where the input knows it.
+[[nodiscard]] Vec3 onto_geometry(const HexMesh& mesh, const Interfaces& faces,
+                                 const std::vector<Crossing>& crossings, const ExactSurface& exact,
+                                 std::size_t interface_node, const Vec3& p);
+
 // Collective. Moves every interface node of the mesh onto the interface. A node stays on its box sides and
 // moves at most 0.7 of a cell per axis (0.45 on the box).
 void place_nodes(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings);

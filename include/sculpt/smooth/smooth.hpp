@@ -4,6 +4,7 @@
 // another in an order that depends on global ids only, nodes of one colour at the same time.
 #include <array>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,15 @@ struct Geometry {
   std::vector<Vec3> target;
   std::vector<std::array<double, 6>> weight;
   std::vector<std::uint8_t> on_curve;  // 1 for nodes of curves and vertices
+  // The point of the geometry that belongs to an entry (of an owned node) when its node is at p, box sides
+  // not considered. May be empty where nothing asks for it: neither hold_on_geometry, max_deviation nor the
+  // published method.
+  std::function<Vec3(LocalId entry, const Vec3& p)> onto;
+};
+
+enum class OptimisationMethod {
+  kNewton,     // this program's own
+  kPublished,  // the report's: Jacobi optimisation and colouring (sections 2.12.3 and 2.12.4)
 };
 
 struct SmoothOptions {
@@ -30,6 +40,14 @@ struct SmoothOptions {
   double fidelity = 1;         // weight of deviations of interface nodes from where they were put
   double release_curves_below =
       0.1;  // curve nodes of hexes below it may leave their curve; negative: held harder
+  bool hold_on_geometry = false;  // interface nodes end as near to the geometry as the target allows
+  double max_deviation =
+      std::numeric_limits<double>::infinity();  // of interface nodes from the geometry; a length
+  int guarantee_rounds = 0;                     // most rounds in which interfaces give way more and more
+  double guarantee = 0.2;                       // to this scaled Jacobian
+  OptimisationMethod method = OptimisationMethod::kNewton;
+  bool damping = true;      // published method: the n-th of N passes goes n/N of the way
+  bool size_aware = false;  // published method: quality counts short and long edges (equations 2.9-2.11)
 };
 
 // Scaled Jacobian and edge length over the hexes of all ranks; the same for any number of ranks, but for
@@ -46,6 +64,10 @@ struct QualitySummary {
 // Collective. The mesh needs one ghost layer of hexes. Every hex ends with a positive Jacobian if any way to
 // it was found; what is left below the target is told by summarise().
 void smooth_mesh(HexMesh& mesh, const Geometry& geometry, const SmoothOptions& options, const Log& log);
+
+// Collective. Prints the worst owned hexes of all ranks with a scaled Jacobian below `below`, up to ten,
+// worst first (ties: the smaller id): quality and centre.
+void print_worst_hexes(const HexMesh& mesh, double below, const Log& log);
 
 // Collective. The average is summed in whole units of 2^-40, so that it does not depend on the number of
 // ranks.

@@ -82,7 +82,7 @@ TEST(SmoothInterface, ProjectsToTheTrueSurface) {
   const Vec3 centre{6.1, 5.9, 6};
   Surface s = surface(test::ball({12, 12, 12}, centre, 4));
   place_nodes(s.cells, s.faces, s.crossings);
-  smooth_interface(s.cells, s.faces, s.crossings, s.grid_position, {.project = true});
+  smooth_interface(s.cells, s.faces, s.crossings, s.grid_position, {.projection = SurfaceProjection::kInterface});
   double worst = 0;
   for (const LocalId n : s.faces.nodes)
     worst = std::max(worst, std::fabs(norm(s.cells.position[static_cast<std::size_t>(n)] - centre) - 4));

@@ -11,11 +11,16 @@ namespace {
 constexpr double kShrink = 0.5;              // share of the way in the shrinking pass of a pair
 constexpr double kFarthest = 0.45;           // from the grid position, in cells per axis
 constexpr double kFarthestProjected = 0.75;  // the same where nodes are held on the interface
+constexpr double kRounding = 1e-12;          // shorter ways to the interface, in cells, are none
 constexpr double kSliding = 0.1;             // weight of a tangential deviation
 
 class Smoother {
  public:
-  Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule) : mesh_(mesh), faces_(faces), rule_(rule) {
+  Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule)
+      : mesh_(mesh),
+        faces_(faces),
+        rule_(rule),
+        in_cells_{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z} {
     std::vector<GlobalId> id;
     std::vector<std::int32_t> owner;
     x_.reserve(faces.nodes.size());
@@ -41,7 +46,8 @@ class Smoother {
   void project(const std::vector<Crossing>& crossings, const ExactSurface& exact) {
     for (const LocalId i : owned_) {
       Vec3& p = x_[at(i)];
-      p += held_on_box(onto_geometry(mesh_, faces_, crossings, exact, at(i), p) - p, sides(i));
+      const Vec3 move = held_on_box(onto_geometry(mesh_, faces_, crossings, exact, at(i), p) - p, sides(i));
+      if (largest(scaled(move, in_cells_)) > kRounding) p += move;
     }
     exchange_.copy_to_ghosts(x_);
   }
@@ -133,6 +139,7 @@ class Smoother {
   HexMesh& mesh_;
   const Interfaces& faces_;
   CurveRule rule_;
+  Vec3 in_cells_;
   std::vector<Vec3> x_,
       moved_;               // positions by interface node: close together in memory, unlike those of the mesh
   GhostExchange exchange_;  // of interface nodes

@@ -153,17 +153,40 @@ class PublishedOptimisation {
       : set_(set), mesh_(set.mesh()), options_(options), log_(log), optimiser_(set, geometry, options) {}
 
   void run() {
+    Standing best = standing();
     for (int pass = 1; pass <= options_.improve_sweeps; ++pass) {
+      const std::vector<Vec3> before = mesh_.position;
       const std::int64_t moves = jacobi_pass(pass);
-      const ActiveSet::Worst w = set_.worst(options_.target);
-      log_.line("Jacobi Opt Iter: {},  Num bad: {}, Num poor: {}, Min SJ: {:f}", pass, w.not_positive,
-                w.below_02, w.quality);
+      const Standing now = standing();
+      log_.line("Jacobi Opt Iter: {},  Num bad: {}, Num poor: {}, Min SJ: {:f}", pass, now.bad, now.poor,
+                now.least);
       if (moves == 0) break;
+      if (!now.better_than(best)) {  // no improvement: the pass is not kept
+        mesh_.position = before;
+        set_.refresh_all_quality();
+        break;
+      }
+      best = now;
     }
     colouring();
   }
 
  private:
+  // How good the mesh is as a whole.
+  struct Standing {
+    std::int64_t bad, poor;
+    double least;
+    [[nodiscard]] bool better_than(const Standing& other) const {
+      if (bad != other.bad) return bad < other.bad;
+      if (poor != other.poor) return poor < other.poor;
+      return least > other.least;
+    }
+  };
+  [[nodiscard]] Standing standing() const {
+    const ActiveSet::Worst w = set_.worst(options_.target);
+    return {w.not_positive, w.below_02, w.quality};
+  }
+
   // All nodes of poor hexes and of the hexes around them, from the same state.
   std::int64_t jacobi_pass(int pass) {
     set_.choose(options_.improve_below, 1, false);

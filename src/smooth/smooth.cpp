@@ -277,17 +277,33 @@ class Phases {
   void fit(double tolerance) {
     step_.set_scale(isotropic_);
     StepRules rules = raising_rules(options_.fidelity);
-    rules.power = 2;
+    StepRules room = rules;
     for (int i = 0; i < kFitRounds; ++i) {
-      const auto is_off = [&](LocalId n) {
-        return on_interface(n) && norm(step_.towards_geometry(n, mesh_.position[at(n)])) > tolerance;
-      };
-      if (set_.choose_if(is_off) == 0) break;
-      if (set_.sweep([&](LocalId n) { return step_.fit(n, rules); }, 0) == 0) break;
-      set_.choose(floor_ + kMargin, 1, true);
-      set_.sweep([&](LocalId n) { return !on_interface(n) && step_.newton(n, rules); }, kFar);
+      const std::vector<std::uint8_t> off = off_the_geometry(tolerance);
+      if (set_.choose_if([&](LocalId n) { return off[at(n)] != 0; }) == 0) break;
+      const std::int64_t moves = set_.sweep([&](LocalId n) { return step_.fit(n, rules); }, 0);
+      room.target_lengths = i % 2 == 0 ? Star::Target::kUnit : Star::Target::kPresent;
+      room.power = i % 2 == 0 ? 1 : 2;
+      set_.choose_if([&](LocalId n) { return !on_interface(n) && shares_hex(n, off); });
+      const std::int64_t around = set_.sweep([&](LocalId n) { return step_.newton(n, room); }, kFar);
+      if (moves == 0 && around == 0) break;
     }
     unfold();
+  }
+  // Marks the interface nodes, ghosts included, that are farther than this from the geometry.
+  [[nodiscard]] std::vector<std::uint8_t> off_the_geometry(double tolerance) const {
+    std::vector<std::uint8_t> off(mesh_.position.size(), 0);
+    for (LocalId n = 0; n < mesh_.nodes(); ++n)
+      off[at(n)] = on_interface(n) && set_.owned(n) &&
+                   norm(step_.towards_geometry(n, mesh_.position[at(n)])) > tolerance;
+    mesh_.node_exchange.copy_to_ghosts(off);
+    return off;
+  }
+  [[nodiscard]] bool shares_hex(LocalId node, const std::vector<std::uint8_t>& marked) const {
+    for (const std::int32_t item : set_.around()[node])
+      for (const LocalId other : mesh_.hexes[at(item / 8)])
+        if (marked[at(other)]) return true;
+    return false;
   }
   void report_deviation() const {
     double farthest = 0;

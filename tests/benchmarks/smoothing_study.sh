@@ -77,7 +77,7 @@ while read -r model; do
   count=$((count + 1))
 done < <(models)
 
-names=(undamped damped undamped_coloured damped_coloured damped_coloured_free_curves ours)
+names=(undamped damped undamped_coloured damped_coloured damped_coloured_free-curves ours)
 options() {
   local published="opt_method = jacobi|pcol_threshold = 0.2|laplacian_iters = 2|smooth = fixed_bbox"
   case $1 in
@@ -85,7 +85,7 @@ options() {
     damped) echo "$published|max_pcol_iters = 0" ;;
     undamped_coloured) echo "$published|opt_damping = false" ;;
     damped_coloured) echo "$published" ;;
-    damped_coloured_free_curves) echo "$published|curve_opt_thresh = 0.2" ;;
+    damped_coloured_free-curves) echo "$published|curve_opt_thresh = 0.2" ;;
     ours) echo "smooth = fixed_bbox|laplacian_iters = 2|pcol_threshold = $own_floor" ;;
   esac
 }

@@ -1,5 +1,7 @@
 #include "support/stages.hpp"
 
+#include <cmath>
+
 #include "pipeline/interface_geometry.hpp"
 #include "sculpt/contour/contour.hpp"
 #include "sculpt/distribute/cartesian.hpp"
@@ -67,7 +69,8 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   place_nodes(cells, faces, crossings);
   note("contour", cells);
   InterfaceSmoothing smoothing = options.interfaces;
-  if (!input.pure) smoothing.projection = SurfaceProjection::kInterface;
+  if (!input.pure && smoothing.projection == SurfaceProjection::kOff)
+    smoothing.projection = SurfaceProjection::kInterface;
   smooth_interface(cells, faces, crossings, grid_position, smoothing);
   note("smooth interfaces", cells);
 
@@ -81,8 +84,12 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   note("pillow", pillowed.mesh);
   SmoothOptions volume_smoothing = options.smoothing;
   volume_smoothing.fidelity = input.pure ? 1 : 2.5;
-  smooth_mesh(pillowed.mesh, interface_geometry(pillowed, cells, faces, deviation_weights(cells, faces)),
-              volume_smoothing, Log());
+  Geometry geometry = interface_geometry(pillowed, cells, faces, deviation_weights(cells, faces));
+  const bool published = volume_smoothing.method == OptimisationMethod::kPublished;
+  if (published || volume_smoothing.hold_on_geometry || std::isfinite(volume_smoothing.max_deviation))
+    hold(geometry, pillowed, {cells, faces, crossings, smoothing.exact, published && input.pure});
+  smooth_mesh(pillowed.mesh, geometry, volume_smoothing, options.log);
+  result.geometry = std::move(geometry);
   note("smooth", pillowed.mesh);
   result.mesh = std::move(pillowed.mesh);
   return result;

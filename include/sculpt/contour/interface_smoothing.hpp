@@ -35,7 +35,7 @@ struct InterfaceSmoothing {
   int pairs = 5;        // of a shrinking pass and what follows it
   double grow = -0.53;  // share of the way in the growing pass; Taubin's keeps volumes best
   SurfaceProjection projection = SurfaceProjection::kOff;
-  ExactSurface exact;  // used by kInterface, where there is one
+  ExactSurface exact{};  // used by kInterface, where there is one
   CurveRule curve = CurveRule::kHermite;
 };
 

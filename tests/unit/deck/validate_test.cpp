@@ -41,6 +41,13 @@ opt_threshold = 0.7
 curve_opt_thresh = -1
 max_pcol_iters = 0
 pcol_threshold = 0.2
+max_gq_iters = 5
+gq_threshold = 0.4
+geo_smooth_max_deviation = 0.1
+surface_projection = quadric
+opt_method = jacobi
+opt_damping = false
+opt_metric = shape_and_size
 pillow_surfaces = true
 pillow = 1
 micro_expand = 2
@@ -73,8 +80,6 @@ TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
 }
 
 TEST(Validate, RefusesUnsupportedValues) {
-  EXPECT_EQ(verdict(kSpn + "smooth = to_geom"),
-            "option 'smooth' (line 6 of deck.i): value to_geometry (4) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "gen_sidesets = 9"),
             "option 'gen_sidesets' (line 6 of deck.i): value input_mesh (9) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "pillow = 3"),
@@ -91,6 +96,22 @@ TEST(Validate, AcceptsUnsupportedOptionsThatAreOff) {
               "option '" + name + "' (line 6 of deck.i) is not supported yet");
   }
   EXPECT_EQ(verdict(kSpn + "defeature = off\nadapt_type = 0\nmin_vol_cells = 5\ncapture = 0"), "no error");
+}
+
+TEST(Validate, RefusesSmoothingOptionsThatContradict) {
+  EXPECT_EQ(verdict(kSpn + "smooth = to_geom"), "no error");
+  EXPECT_EQ(verdict(kSpn + "smooth = to_geom\nsurface_projection = interface"), "no error");
+  EXPECT_EQ(
+      verdict(kSpn + "smooth = to_geom\nsurface_projection = quadric"),
+      "smooth = to_geometry holds surfaces on the geometry; surface_projection must be automatic or "
+      "interface; given: smooth = to_geometry (line 6 of deck.i), surface_projection = quadric (line 7 of "
+      "deck.i)");
+  EXPECT_EQ(verdict(kSpn + "smooth = 5\nopt_method = jacobi"),
+            "opt_method = jacobi knows no limit of deviation; smooth must not be geo_smooth; given: smooth = "
+            "geo_smooth (line 6 of deck.i), opt_method = jacobi (line 7 of deck.i)");
+  EXPECT_EQ(
+      verdict(kSpn + "opt_damping = false"),
+      "opt_damping and opt_metric need opt_method = jacobi; given: opt_damping = false (line 6 of deck.i)");
 }
 
 TEST(Validate, NeedsExactlyOneGeometry) {

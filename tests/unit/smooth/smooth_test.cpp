@@ -78,6 +78,29 @@ TEST(SmoothMesh, KeepsABallRound) {
   EXPECT_NEAR(test::volumes(mesh, 2)[1], 4.0 / 3 * std::acos(-1.0) * 64, 0.03 * 268);
 }
 
+// Planes on cell faces that cross each other: pillows move, interfaces do not.
+TEST(SmoothMesh, LeavesPlaneInterfacesWhereTheyAre) {
+  const test::Case cross = test::voxels(
+      "cross", {7, 6, 5}, 4, [](const Index3& c) { return (c[0] < 3 ? 0 : 1) + (c[1] < 4 ? 0 : 2); });
+  std::vector<SmoothOptions> all(5);
+  all[1].guarantee_rounds = 2;
+  all[2].hold_on_geometry = true;
+  all[3].max_deviation = 0.1;
+  all[4].method = OptimisationMethod::kPublished;
+  for (const SmoothOptions& smoothing : all) {
+    test::StageOptions options;
+    options.smoothing = smoothing;
+    const test::StagesResult r = test::run_stages(Comm::self(), cross, options);
+    std::int64_t on_planes = 0;
+    for (std::size_t n = 0; n < r.mesh.position.size(); ++n) {
+      if (r.geometry.index[n] == kNone) continue;
+      for (std::size_t d = 0; d < 3; ++d) EXPECT_EQ(r.mesh.position[n][d], std::round(r.mesh.position[n][d]));
+      ++on_planes;
+    }
+    EXPECT_EQ(on_planes, 7 * 6 + 8 * 6 - 6);
+  }
+}
+
 // Distance of each interface node from its point of the geometry, the largest; along its box sides.
 double farthest_from_geometry(const test::StagesResult& r) {
   double farthest = 0;

@@ -120,10 +120,13 @@ void hold(Geometry& geometry, const Pillowed& pillowed, HeldInterface interface)
                       LocalId entry, const Vec3& p) {
     const LocalId i = node[at(entry)];
     if (i == kNone) return onto_plane(targets[at(entry)], weights[at(entry)], p);
-    if (!held->quadrics)
-      return onto_geometry(held->cells, held->faces, held->crossings, held->exact, at(i), p);
-    return held->faces.kind[at(i)] == NodeClass::kSurface ? onto_quadric((*quadrics)[at(i)], p)
-                                                          : targets[at(entry)];
+    const bool on_surface = held->faces.kind[at(i)] == NodeClass::kSurface;
+    if (held->quadrics) return on_surface ? onto_quadric((*quadrics)[at(i)], p) : targets[at(entry)];
+    const Vec3 point = onto_geometry(held->cells, held->faces, held->crossings, held->exact, at(i), p);
+    // Planes that hardly cut each other meet far away.
+    return on_surface
+               ? point
+               : within_reach(held->cells, held->faces.nodes[at(i)], held->grid_position[at(i)], point);
   };
 }
 

@@ -24,6 +24,7 @@ struct HeldInterface {
   HexMesh cells;  // nodes where the smoothed contour has them
   Interfaces faces;
   std::vector<Crossing> crossings;
+  std::vector<Vec3> grid_position;  // of interface nodes in the overlay grid
   ExactSurface exact;
   bool quadrics = false;
 };

@@ -145,7 +145,9 @@ bool holds_interfaces(const Deck& deck) {
 struct Contour {
   Interfaces faces;
   std::vector<Weight> weights;
-  std::vector<Crossing> crossings;  // kept where holds_interfaces()
+  // Kept where holds_interfaces().
+  std::vector<Crossing> crossings;
+  std::vector<Vec3> grid_position;
 };
 
 Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stages) {
@@ -155,15 +157,18 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
   log.line("(4/9) computing dual edge intersections...");
   c.crossings = edge_crossings(cells, c.faces, overlay.fractions, *overlay.around);
   log.line("(5/9) computing material interfaces...");
-  std::vector<Vec3> grid_position;
-  for (const LocalId n : c.faces.nodes) grid_position.push_back(cells.position[static_cast<std::size_t>(n)]);
+  for (const LocalId n : c.faces.nodes)
+    c.grid_position.push_back(cells.position[static_cast<std::size_t>(n)]);
   place_nodes(cells, c.faces, c.crossings);
   stages.end("contour");
   if (deck.smooth != kSmoothOff)
-    smooth_interface(cells, c.faces, c.crossings, grid_position,
+    smooth_interface(cells, c.faces, c.crossings, c.grid_position,
                      interface_smoothing(deck, overlay.pure, overlay.exact));
   c.weights = deviation_weights(cells, c.faces);
-  if (!holds_interfaces(deck)) c.crossings = {};
+  if (!holds_interfaces(deck)) {
+    c.crossings = {};
+    c.grid_position = {};
+  }
   stages.end("smooth interfaces");
   return c;
 }
@@ -174,7 +179,7 @@ Contour stair_interfaces(Overlay& overlay, const std::vector<std::uint8_t>& drop
   log.line("(5/9) computing material interfaces...");
   for (std::size_t c = 0; c < drop.size(); ++c)
     if (drop[c]) overlay.cells.material[c] = -1;
-  return {trace_interfaces(overlay.cells, overlay.neighbours), {}, {}};
+  return {trace_interfaces(overlay.cells, overlay.neighbours), {}, {}, {}};
 }
 
 SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& overlay,
@@ -221,7 +226,8 @@ HexMesh build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, SidePlan
     const bool quadrics = deck.opt_method == kOptJacobi && deck.smooth != kSmoothToGeometry && overlay.pure;
     hold(geometry, result,
          {std::move(overlay.cells), std::move(shape.faces), std::move(shape.crossings),
-          deck.smooth == kSmoothToGeometry ? overlay.exact : ExactSurface{}, quadrics});
+          std::move(shape.grid_position), deck.smooth == kSmoothToGeometry ? overlay.exact : ExactSurface{},
+          quadrics});
   }
   overlay.cells = {};
   stages.end("generate hexes");

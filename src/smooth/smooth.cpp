@@ -7,6 +7,7 @@
 #include "smooth/laplacian.hpp"
 #include "smooth/node_step.hpp"
 #include "smooth/published.hpp"
+#include "smooth/quality.hpp"
 
 namespace sculpt {
 namespace {
@@ -60,8 +61,8 @@ class Phases {
       optimise_as_published(set_, geometry_, options_, log_);
     else
       optimise();
-    if (options_.hold_on_geometry) fit(kFitted * size_);
-    if (limited()) fit(farthest_);
+    if (options_.hold_on_geometry) without_folding([&] { fit(kFitted * size_); });
+    if (limited()) without_folding([&] { fit(farthest_); });
     if (options_.guarantee_rounds > 0) guarantee();
     if (options_.hold_on_geometry || limited()) report_deviation();
     if (set_.worst(floor_).below_target > 0) print_worst_hexes(mesh_, floor_, log_);
@@ -87,7 +88,45 @@ class Phases {
 
   std::int64_t sweep(const StepRules& rules, double far) {
     if (options_.hold_on_geometry) retarget();
-    return set_.sweep([&](LocalId n) { return step_.newton(n, rules); }, far);
+    return moves_of([&](LocalId n) { return step_.newton(n, rules); }, far);
+  }
+  std::int64_t moves_of(const std::function<bool(LocalId)>& step, double far) {
+    return never_folds_ ? set_.sweep(unfolded(step), far) : set_.sweep(step, far);
+  }
+  // Work that leaves no folded hex: if it does it is done once more from the start, with a look at every
+  // step.
+  void without_folding(const std::function<void()>& work) {
+    const std::vector<Vec3> before = mesh_.position;
+    work();
+    if (unfold()) return;
+    mesh_.position = before;
+    set_.refresh_all_quality();
+    never_folds_ = true;
+    work();
+    never_folds_ = false;
+  }
+  // A step that is taken back where it leaves more hexes with a Jacobian that is not positive inside.
+  [[nodiscard]] std::function<bool(LocalId)> unfolded(std::function<bool(LocalId)> step) {
+    return [this, step = std::move(step)](LocalId n) {
+      Vec3& p = mesh_.position[at(n)];
+      const Vec3 before = p;
+      if (!step(n)) return false;
+      const int folded = folded_around(n);
+      if (folded == 0) return true;
+      const Vec3 after = p;
+      p = before;
+      if (folded > folded_around(n)) return false;
+      p = after;
+      return true;
+    };
+  }
+  [[nodiscard]] int folded_around(LocalId node) const {
+    int folded = 0;
+    for (const std::int32_t item : set_.around()[node]) {
+      const HexCorners p = mesh_.corners(item / 8);
+      folded += scaled_jacobian(p) < kNeverFolds && !is_positive_inside(p);
+    }
+    return folded;
   }
 
   void report(const char* phase, int iteration) const {
@@ -225,7 +264,7 @@ class Phases {
     const auto step = [&](LocalId n) { return (freely || !on_interface(n)) && step_.climb(n, rules); };
     for (int i = 0; i < 24 && aim.done < aim.sweeps; ++i) {
       if (set_.choose(aim.target, 0, false) == 0) return;
-      const std::int64_t moves = set_.sweep(step, kFar);
+      const std::int64_t moves = moves_of(step, kFar);
       report_target(aim, moves);
       if (moves == 0) return;
       if (i % 4 == 3) {
@@ -245,9 +284,10 @@ class Phases {
     Aim aim{goal, options_.fidelity, std::numeric_limits<int>::max(), false, false};
     std::int64_t left = set_.worst(goal).below_target;
     for (int i = 1; i <= options_.guarantee_rounds && left > 0; ++i, aim.fidelity *= kGiveWay) {
-      steepen(aim);
-      climb(aim);
-      unfold();
+      without_folding([&] {
+        steepen(aim);
+        climb(aim);
+      });
       const ActiveSet::Worst w = set_.worst(goal);
       left = w.below_target;
       log_.line(
@@ -281,14 +321,13 @@ class Phases {
     for (int i = 0; i < kFitRounds; ++i) {
       const std::vector<std::uint8_t> off = off_the_geometry(tolerance);
       if (set_.choose_if([&](LocalId n) { return off[at(n)] != 0; }) == 0) break;
-      const std::int64_t moves = set_.sweep([&](LocalId n) { return step_.fit(n, rules); }, 0);
+      const std::int64_t moves = moves_of([&](LocalId n) { return step_.fit(n, rules); }, 0);
       room.target_lengths = i % 2 == 0 ? Star::Target::kUnit : Star::Target::kPresent;
       room.power = i % 2 == 0 ? 1 : 2;
       set_.choose_if([&](LocalId n) { return !on_interface(n) && shares_hex(n, off); });
-      const std::int64_t around = set_.sweep([&](LocalId n) { return step_.newton(n, room); }, kFar);
+      const std::int64_t around = moves_of([&](LocalId n) { return step_.newton(n, room); }, kFar);
       if (moves == 0 && around == 0) break;
     }
-    unfold();
   }
   // Marks the interface nodes, ghosts included, that are farther than this from the geometry.
   [[nodiscard]] std::vector<std::uint8_t> off_the_geometry(double tolerance) const {
@@ -362,9 +401,10 @@ class Phases {
   ActiveSet set_;
   NodeStep step_;
   Vec3 per_axis_, isotropic_;
-  double size_ = 1;  // of a cell
-  double farthest_;  // limit of deviation of the present phase
-  double floor_;     // quality that no step may fall below
+  double size_ = 1;           // of a cell
+  double farthest_;           // limit of deviation of the present phase
+  double floor_;              // quality that no step may fall below
+  bool never_folds_ = false;  // no step may fold a hex inside
 };
 
 }  // namespace

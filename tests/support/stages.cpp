@@ -87,7 +87,8 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   Geometry geometry = interface_geometry(pillowed, cells, faces, deviation_weights(cells, faces));
   const bool published = volume_smoothing.method == OptimisationMethod::kPublished;
   if (published || volume_smoothing.hold_on_geometry || std::isfinite(volume_smoothing.max_deviation))
-    hold(geometry, pillowed, {cells, faces, crossings, smoothing.exact, published && input.pure});
+    hold(geometry, pillowed,
+         {cells, faces, crossings, grid_position, smoothing.exact, published && input.pure});
   smooth_mesh(pillowed.mesh, geometry, volume_smoothing, options.log);
   result.geometry = std::move(geometry);
   note("smooth", pillowed.mesh);

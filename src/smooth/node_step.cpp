@@ -105,7 +105,7 @@ bool NodeStep::fit(LocalId node, const StepRules& rules) {
 }
 
 bool NodeStep::pull_back(LocalId node, double farthest) {
-  constexpr int kTries = 5;  // the point of the geometry moves with the node
+  constexpr int kTries = 40, kCareful = 5;  // the point of the geometry moves with the node
   constexpr double kInside = 0.98;
   if (geometry_.index[at(node)] == kNone) return false;
   Vec3& p = mesh_.position[at(node)];
@@ -114,7 +114,7 @@ bool NodeStep::pull_back(LocalId node, double farthest) {
     const Vec3 back = towards_geometry(node, p);
     const double distance = norm(back);
     if (!(distance > farthest)) break;
-    p += (1 - kInside * farthest / distance) * back;
+    p += i < kCareful ? (1 - kInside * farthest / distance) * back : back;
     moved = true;
   }
   return moved;

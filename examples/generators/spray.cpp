@@ -34,6 +34,9 @@ class Deposit {
     std::int64_t i, j, thickness;
   };
 
+  // A splat may be wider than the box.
+  static std::int64_t wrapped(std::int64_t i, std::int64_t n) { return (i % n + n) % n; }
+
   void add_splat() {
     const std::int64_t radius_x = random_.between(7, 20), radius_y = random_.between(7, 20);
     const std::int64_t thickness = random_.between(3, 6), x = random_.below(n_[0]), y = random_.below(n_[1]);
@@ -44,8 +47,7 @@ class Deposit {
       for (std::int64_t dj = -radius_y; dj <= radius_y; ++dj) {
         const std::int64_t inside = rim - di * di * radius_y * radius_y - dj * dj * radius_x * radius_x;
         if (inside <= 0) continue;
-        columns_.push_back(
-            {(x + di + n_[0]) % n_[0], (y + dj + n_[1]) % n_[1], 1 + thickness * inside / rim});
+        columns_.push_back({wrapped(x + di, n_[0]), wrapped(y + dj, n_[1]), 1 + thickness * inside / rim});
       }
     const std::int64_t support = support_height();
     for (const Column& c : columns_) lay(c, id, support);

@@ -2,17 +2,25 @@
 
 #include <algorithm>
 
+#include "contour/curve_rules.hpp"
+#include "sculpt/contour/quadric.hpp"
+
 namespace sculpt {
 namespace {
 
 constexpr double kShrink = 0.5;              // share of the way in the shrinking pass of a pair
 constexpr double kFarthest = 0.45;           // from the grid position, in cells per axis
 constexpr double kFarthestProjected = 0.75;  // the same where nodes are held on the interface
+constexpr double kRounding = 1e-12;          // shorter ways to the interface, in cells, are none
 constexpr double kSliding = 0.1;             // weight of a tangential deviation
 
 class Smoother {
  public:
-  Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule) : mesh_(mesh), faces_(faces), rule_(rule) {
+  Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule)
+      : mesh_(mesh),
+        faces_(faces),
+        rule_(rule),
+        in_cells_{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z} {
     std::vector<GlobalId> id;
     std::vector<std::int32_t> owner;
     x_.reserve(faces.nodes.size());
@@ -35,11 +43,26 @@ class Smoother {
     exchange_.copy_to_ghosts(x_);
   }
 
-  void project(const std::vector<Crossing>& crossings) {
+  void project(const std::vector<Crossing>& crossings, const ExactSurface& exact) {
     for (const LocalId i : owned_) {
       Vec3& p = x_[at(i)];
-      p += held_on_box(onto_interface(mesh_, faces_, crossings, at(i), p) - p, sides(i));
+      const Vec3 move = held_on_box(onto_geometry(mesh_, faces_, crossings, exact, at(i), p) - p, sides(i));
+      if (largest(scaled(move, in_cells_)) > kRounding) p += move;
     }
+    exchange_.copy_to_ghosts(x_);
+  }
+
+  // A shrinking pass after which nodes of surfaces go back to the quadric of where they and their neighbours
+  // stood before it.
+  void pass_on_quadrics(double factor) {
+    moved_ = x_;
+    for (const LocalId i : owned_) {
+      Vec3& p = moved_[at(i)];
+      p += factor * held_on_box(wish(at(i), false), sides(i));
+      if (faces_.kind[at(i)] == NodeClass::kSurface)
+        p += held_on_box(onto_quadric(quadric_at(i), p) - p, sides(i));
+    }
+    x_.swap(moved_);
     exchange_.copy_to_ghosts(x_);
   }
 
@@ -79,51 +102,12 @@ class Smoother {
 
   [[nodiscard]] Vec3 curve_wish(std::size_t node) const {
     const auto i = static_cast<LocalId>(node);
-    const LocalId ia = faces_.curve_neighbours[node][0], ib = faces_.curve_neighbours[node][1];
-    const Vec3 x = position(i), a = position(ia), b = position(ib);
-    const Vec3 middle = 0.5 * (a + b);
-    switch (rule_) {
-      case CurveRule::kOff:
-        return {};
-      case CurveRule::kLinear:
-        return middle - x;
-      case CurveRule::kHermite: {
-        // Hermite midpoint with tangents of one edge length (the report's 2.25, signs by orientation a to b).
-        const LocalId pa = beyond(i, ia), pb = beyond(i, ib);
-        const Vec3 da = pa == ia ? x - a : 0.5 * (x - position(pa)),
-                   db = pb == ib ? b - x : 0.5 * (position(pb) - x);
-        return middle + 0.25 * (da - db) - x;
-      }
-      case CurveRule::kAverageTangent: {
-        // Mean of the two straight continuations over half the chord.
-        const LocalId pa = beyond(i, ia), pb = beyond(i, ib);
-        const double half = 0.5 * norm(b - a);
-        const Vec3 ta = pa == ia ? unit(x - a) : unit(a - position(pa)),
-                   tb = pb == ib ? unit(x - b) : unit(b - position(pb));
-        return 0.5 * (a + half * ta + b + half * tb) - x;
-      }
-      case CurveRule::kCircle:
-        return middle_of_arc(a, x, b) - x;
-      case CurveRule::kNeighbourSurfaceNormal:
-        return towards_surfaces(node, middle - x);
-      case CurveRule::kVfrac: {
-        const Vec3 along = unit(b - a);
-        return dot(middle - x, along) * along;
-      }
-    }
-    return {};
-  }
-
-  // The point of the circle through a, x, b halfway between a and b, on the side of x.
-  [[nodiscard]] static Vec3 middle_of_arc(const Vec3& a, const Vec3& x, const Vec3& b) {
-    const Vec3 chord = b - a, middle = 0.5 * (a + b);
-    const double length = norm(chord);
-    const Vec3 along = unit(chord), off = (x - middle) - dot(x - middle, along) * along;
-    const double height = norm(off), s = dot(x - middle, along);
-    if (height < 1e-12 * length) return middle;
-    // Centre at middle + c * up, equidistant from a and x.
-    const double c = (s * s + height * height - 0.25 * length * length) / (2 * height);
-    return middle + (c + std::sqrt(c * c + 0.25 * length * length)) * unit(off);
+    const LocalId a = faces_.curve_neighbours[node][0], b = faces_.curve_neighbours[node][1];
+    const LocalId before = beyond(i, a), after = beyond(i, b);
+    if (rule_ == CurveRule::kNeighbourSurfaceNormal)
+      return towards_surfaces(node, 0.5 * (position(a) + position(b)) - position(i));
+    return curve_move(rule_, {position(before), position(a), position(i), position(b), position(after),
+                              before == a, after == b});
   }
 
   // Mean of the projections to the tangent planes of the surface nodes beside the curve.
@@ -148,10 +132,14 @@ class Smoother {
     }
     return unit(sum);
   }
+  [[nodiscard]] Quadric quadric_at(LocalId i) const {
+    return surface_quadric(mesh_, faces_, at(i), [this](LocalId n) { return position(n); });
+  }
 
   HexMesh& mesh_;
   const Interfaces& faces_;
   CurveRule rule_;
+  Vec3 in_cells_;
   std::vector<Vec3> x_,
       moved_;               // positions by interface node: close together in memory, unlike those of the mesh
   GhostExchange exchange_;  // of interface nodes
@@ -164,11 +152,19 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
                       const std::vector<Vec3>& grid_position, const InterfaceSmoothing& options) {
   Smoother smoother(mesh, faces, options.curve);
   for (int pair = 0; pair < options.pairs; ++pair) {
-    smoother.pass(kShrink);
-    if (options.project)
-      smoother.project(crossings);
-    else
-      smoother.pass(options.grow);
+    switch (options.projection) {
+      case SurfaceProjection::kOff:
+        smoother.pass(kShrink);
+        smoother.pass(options.grow);
+        break;
+      case SurfaceProjection::kQuadric:
+        smoother.pass_on_quadrics(kShrink);
+        break;
+      case SurfaceProjection::kInterface:
+        smoother.pass(kShrink);
+        smoother.project(crossings, options.exact);
+        break;
+    }
   }
   smoother.finish();
   const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
@@ -176,13 +172,37 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
     Vec3& p = mesh.position[at(faces.nodes[i])];
     // On the box a node cannot follow a surface that ends short of it: there the side may not close up.
     const bool held = mesh.box_sides[at(faces.nodes[i])] != 0;
-    const double farthest = options.project && !held ? kFarthestProjected : kFarthest;
+    const double farthest =
+        options.projection == SurfaceProjection::kInterface && !held ? kFarthestProjected : kFarthest;
     const Vec3 move = p - grid_position[i];
     const double most = largest(scaled(move, in_cells));
     if (most > farthest)
       p = grid_position[i] + held_on_box((farthest / most) * move, mesh.box_sides[at(faces.nodes[i])]);
   }
   mesh.node_exchange.copy_to_ghosts(mesh.position);
+}
+
+Quadric surface_quadric(const HexMesh& mesh, const Interfaces& faces, std::size_t i,
+                        const std::function<Vec3(LocalId)>& position) {
+  const auto self = static_cast<LocalId>(i);
+  Vec3 normal;
+  std::vector<LocalId> ring;
+  for (const LocalId item : faces.node_quads[i]) {
+    const InterfaceQuad& q = faces.quads[at(item / 4)];
+    std::array<Vec3, 4> p;
+    for (std::size_t v = 0; v < 4; ++v) {
+      const LocalId n = faces.index_of[at(q.node[v])];
+      p[v] = position(n);
+      if (n != self) ring.push_back(n);
+    }
+    const Vec3 across = unit(cross(p[2] - p[0], p[3] - p[1]));
+    normal += mesh.material[at(q.cell[0])] < mesh.material[at(q.cell[1])] ? across : -across;
+  }
+  std::sort(ring.begin(), ring.end());  // ascending in global id
+  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  std::vector<Vec3> around;
+  for (const LocalId n : ring) around.push_back(position(n));
+  return fit_quadric(position(self), unit(normal), around);
 }
 
 std::vector<Weight> deviation_weights(const HexMesh& mesh, const Interfaces& faces) {

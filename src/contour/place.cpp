@@ -85,18 +85,31 @@ Vec3 onto_interface(const HexMesh& mesh, const Interfaces& faces, const std::vec
   return on_surface(p, in_cells, crossings, items);
 }
 
+Vec3 onto_geometry(const HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
+                   const ExactSurface& exact, std::size_t i, const Vec3& p) {
+  if (exact && faces.kind[i] == NodeClass::kSurface) {
+    const auto [a, b] = Interfaces::materials(mesh, faces.quads[at(faces.node_quads[i][0] / 4)]);
+    if (const std::optional<Vec3> known = exact(p, a, b)) return *known;
+  }
+  return onto_interface(mesh, faces, crossings, i, p);
+}
+
+Vec3 within_reach(const HexMesh& mesh, LocalId node, const Vec3& grid_position, const Vec3& point) {
+  const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
+  Vec3 move = held_on_box(point - grid_position, mesh.box_sides[at(node)]);
+  const double most = largest(scaled(move, in_cells));
+  const double farthest = mesh.box_sides[at(node)] != 0 ? kFarthestOnBox : kFarthest;
+  if (most > farthest) move = (farthest / most) * move;
+  return grid_position + move;
+}
+
 void place_nodes(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings) {
   const int rank = mesh.node_exchange.comm().rank();
-  const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
   for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
     const LocalId n = faces.nodes[i];
     if (mesh.node_owner[at(n)] != rank) continue;
     Vec3& p = mesh.position[at(n)];
-    Vec3 move = held_on_box(onto_interface(mesh, faces, crossings, i, p) - p, mesh.box_sides[at(n)]);
-    const double most = largest(scaled(move, in_cells));
-    const double farthest = mesh.box_sides[at(n)] != 0 ? kFarthestOnBox : kFarthest;
-    if (most > farthest) move = (farthest / most) * move;
-    p += move;
+    p = within_reach(mesh, n, p, onto_interface(mesh, faces, crossings, i, p));
   }
   mesh.node_exchange.copy_to_ghosts(mesh.position);
 }

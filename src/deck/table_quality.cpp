@@ -14,11 +14,11 @@ constexpr EnumValue kSmooths[] = {{"off", kSmoothOff},
                                   {"fixed_bbox", kSmoothFixedBbox},
                                   {"no_surface_projections", kSmoothNoSurfaceProjections},
                                   {"9", kSmoothNoSurfaceProjections},
-                                  {"to_geometry", kSmoothToGeometry, false},
-                                  {"to_geom", kSmoothToGeometry, false},
-                                  {"geo_smooth", kSmoothGeoSmooth, false},
-                                  {"geometry_smoothing", kSmoothGeoSmooth, false},
-                                  {"geo_smoothing", kSmoothGeoSmooth, false}};
+                                  {"to_geometry", kSmoothToGeometry},
+                                  {"to_geom", kSmoothToGeometry},
+                                  {"geo_smooth", kSmoothGeoSmooth},
+                                  {"geometry_smoothing", kSmoothGeoSmooth},
+                                  {"geo_smoothing", kSmoothGeoSmooth}};
 constexpr EnumValue kCsmooths[] = {{"off", kCsmoothOff},
                                    {"none", kCsmoothOff},
                                    {"circle", kCsmoothCircle},
@@ -27,6 +27,12 @@ constexpr EnumValue kCsmooths[] = {{"off", kCsmoothOff},
                                    {"neighbor_surface_normal", kCsmoothNeighborSurfaceNormal},
                                    {"vfrac", kCsmoothVfrac},
                                    {"linear", kCsmoothLinear}};
+constexpr EnumValue kProjections[] = {{"automatic", kProjectionAutomatic},
+                                      {"none", kProjectionNone},
+                                      {"quadric", kProjectionQuadric},
+                                      {"interface", kProjectionInterface}};
+constexpr EnumValue kMethods[] = {{"newton", kOptNewton}, {"jacobi", kOptJacobi}};
+constexpr EnumValue kMetrics[] = {{"shape", kOptShape}, {"shape_and_size", kOptShapeAndSize}};
 constexpr EnumValue kPillows[] = {{"off", kPillowOff},
                                   {"none", kPillowOff},
                                   {"surfaces", kPillowSurfaces},
@@ -58,7 +64,10 @@ constexpr OptionSpec kSmoothingOptions[] = {
          "off: none. default: interface nodes stay on the reconstructed interfaces. fixed_bbox: the same, "
          "and "
          "the sides of the box stay plane. no_surface_projections: the box is kept, interior interface nodes "
-         "are free; smoother, but volumes may shrink. With input_spn the default is no_surface_projections. "
+         "are free; smoother, but volumes may shrink. to_geometry: interface nodes end on the spheres of a "
+         "diatom file, otherwise on the reconstructed interface, as nearly as pcol_threshold allows. "
+         "geo_smooth: as no_surface_projections, within geo_smooth_max_deviation of the reconstructed "
+         "interface. With input_spn the default is no_surface_projections. "
          "8 and 9 of an older numbering mean default and no_surface_projections.",
      .supported = true,
      .values = kSmooths},
@@ -137,7 +146,10 @@ constexpr OptionSpec kSmoothingOptions[] = {
      .group = kS,
      .slot = &Deck::max_gq_iters,
      .help = "Guaranteed-quality iterations",
-     .about = "Passes that pull nodes off the geometry.",
+     .about =
+         "Rounds after all other smoothing in which interface nodes around hexes below gq_threshold leave "
+         "the geometry, each time a little more easily, until no such hex is left.",
+     .supported = true,
      .lo = 0,
      .hi = kMaxCount},
     {.name = "gq_threshold",
@@ -145,7 +157,8 @@ constexpr OptionSpec kSmoothingOptions[] = {
      .group = kS,
      .slot = &Deck::gq_threshold,
      .help = "Quality to guarantee",
-     .about = "Used with max_gq_iters.",
+     .about = "Used with max_gq_iters. Where it is not reached, the console tells the worst hexes.",
+     .supported = true,
      .lo = kMinNorm,
      .hi = kMaxNorm},
     {.name = "geo_smooth_max_deviation",
@@ -153,9 +166,51 @@ constexpr OptionSpec kSmoothingOptions[] = {
      .group = kS,
      .slot = &Deck::geo_smooth_max_deviation,
      .help = "Allowed distance from the geometry",
-     .about = "Used with smooth = geo_smooth.",
+     .about = "Used with smooth = geo_smooth: a length in the units of the input. 0: half a cell.",
+     .supported = true,
      .lo = 0,
-     .unset = "automatic"},
+     .unset = "half a cell"},
+    {.name = "surface_projection",
+     .flag = "",
+     .group = kS,
+     .slot = &Deck::surface_projection,
+     .help = "Where surface nodes go after a smoothing pass",
+     .about =
+         "Not an option of Sculpt. none: nowhere; a growing pass keeps the volumes. quadric: to the "
+         "quadric fitted to their neighbours, as the report describes. interface: to the reconstructed "
+         "interface. automatic: interface for true volume fractions, none for voxels and where smooth is "
+         "no_surface_projections or geo_smooth.",
+     .supported = true,
+     .values = kProjections},
+    {.name = "opt_method",
+     .flag = "",
+     .group = kS,
+     .slot = &Deck::opt_method,
+     .help = "Method of optimisation",
+     .about =
+         "Not an option of Sculpt. newton: untangling, improving and raising as docs/smoothing.md "
+         "describes. jacobi: the Jacobi optimisation and parallel colouring of the published method, for "
+         "comparison; it promises no quality.",
+     .supported = true,
+     .values = kMethods},
+    {.name = "opt_damping",
+     .flag = "",
+     .group = kS,
+     .slot = &Deck::opt_damping,
+     .help = "Damping of the Jacobi passes",
+     .about = "Not an option of Sculpt. Pass n of max_opt_iters goes the part n / max_opt_iters of the way. "
+              "Used with opt_method = jacobi.",
+     .supported = true},
+    {.name = "opt_metric",
+     .flag = "",
+     .group = kS,
+     .slot = &Deck::opt_metric,
+     .help = "Quality that the Jacobi passes optimise",
+     .about = "Not an option of Sculpt. shape: the scaled Jacobian. shape_and_size: times the smaller of e/h "
+              "and h/e, e being the shortest edge at the corner and h the cell size. Used with opt_method = "
+              "jacobi.",
+     .supported = true,
+     .values = kMetrics},
 };
 
 constexpr Group kM = Group::kImprove;

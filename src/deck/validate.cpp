@@ -112,6 +112,21 @@ const std::vector<Rule>& rules() {
       {[](const Deck& d) { return d.xscale <= 0 || d.yscale <= 0 || d.zscale <= 0 || d.scale <= 0; },
        {"xscale", "yscale", "zscale", "scale"},
        "scale factors must be positive"},
+      {[](const Deck& d) {
+         return d.smooth == kSmoothToGeometry &&
+                (d.surface_projection == kProjectionNone || d.surface_projection == kProjectionQuadric);
+       },
+       {"smooth", "surface_projection"},
+       "smooth = to_geometry holds surfaces on the geometry; surface_projection must be automatic or "
+       "interface"},
+      {[](const Deck& d) { return d.smooth == kSmoothGeoSmooth && d.opt_method == kOptJacobi; },
+       {"smooth", "opt_method"},
+       "opt_method = jacobi knows no limit of deviation; smooth must not be geo_smooth"},
+      {[](const Deck& d) {
+         return d.opt_method != kOptJacobi && (!d.opt_damping || d.opt_metric != kOptShape);
+       },
+       {"opt_method", "opt_damping", "opt_metric"},
+       "opt_damping and opt_metric need opt_method = jacobi"},
   };
   return table;
 }

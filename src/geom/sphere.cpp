@@ -50,4 +50,10 @@ void Sphere::chords(std::size_t axis, double u, std::span<const double> v, std::
   }
 }
 
+std::optional<Vec3> Sphere::nearest_on_surface(const Vec3& p) const {
+  const Vec3 off = p - center_;
+  if (!(norm(off) > 0)) return std::nullopt;
+  return center_ + (radius_ / norm(off)) * off;
+}
+
 }  // namespace sculpt

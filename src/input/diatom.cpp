@@ -5,6 +5,7 @@
 #include "input/deck_grid.hpp"
 #include "input/diatom_file.hpp"
 #include "input/shape_fractions.hpp"
+#include "input/shape_surfaces.hpp"
 #include "input/text_file.hpp"
 
 namespace sculpt {
@@ -18,7 +19,9 @@ class DiatomSource final : public MaterialSource {
     std::sort(table_.block_id.begin(), table_.block_id.end());
     table_.block_id.erase(std::unique(table_.block_id.begin(), table_.block_id.end()), table_.block_id.end());
     add_void(deck);
-    for (DiatomShape& shape : shapes) shapes_.push_back({std::move(shape.shape), dense(shape.material)});
+    auto inserted = std::make_shared<std::vector<InsertedShape>>();
+    for (DiatomShape& shape : shapes) inserted->push_back({std::move(shape.shape), dense(shape.material)});
+    shapes_ = std::move(inserted);
   }
 
   [[nodiscard]] const Grid& grid() const override { return grid_; }
@@ -29,10 +32,12 @@ class DiatomSource final : public MaterialSource {
     data.table = table_;
     collectively(comm, "inserting volume fractions", [&] {
       data.fractions =
-          shape_fractions(grid_, wanted[static_cast<std::size_t>(comm.rank())], shapes_, outside_);
+          shape_fractions(grid_, wanted[static_cast<std::size_t>(comm.rank())], *shapes_, outside_);
     });
     return data;
   }
+
+  [[nodiscard]] ExactSurface exact_surface() const override { return surfaces_of(shapes_, grid_); }
 
  private:
   [[nodiscard]] std::int32_t dense(std::int64_t id) const {
@@ -57,7 +62,7 @@ class DiatomSource final : public MaterialSource {
   Grid grid_;
   Log log_;
   MaterialTable table_;
-  std::vector<InsertedShape> shapes_;
+  std::shared_ptr<const std::vector<InsertedShape>> shapes_;
   std::int32_t outside_ = 0;  // dense index of what no shape covers
 };
 

@@ -11,9 +11,6 @@ namespace {
 
 constexpr std::size_t kLines = 20;  // most lines of a list of hexes or blocks
 
-constexpr int kVolumePasses =
-    5;  // of the Laplacian on volume nodes; more change nothing that the optimisation keeps
-
 std::string time_text() {
   const std::time_t now = std::time(nullptr);
   std::string text = std::ctime(&now);
@@ -47,7 +44,7 @@ void print_below_floor(const Log& log, const QualityReport& report, double floor
     if (hex.scaled_jacobian < floor && hex.valid != 0) below.push_back(&hex);
   if (below.empty()) return;
   if (below.size() > kLines) below.resize(kLines);
-  log.line("  Worst valid hexes below pcol_threshold = {:g}:", floor);
+  log.line("  Worst valid hexes below {:g}:", floor);
   for (const ListedHex* hex : below) print_hex(log, report, *hex, "   ", "");
 }
 
@@ -62,33 +59,6 @@ void print_fidelity(const Log& log, const QualityReport& report) {
 
 }  // namespace
 
-InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells) {
-  InterfaceSmoothing s;
-  s.curve = static_cast<CurveRule>(deck.csmooth);
-  s.pairs = deck.laplacian_iters;
-  s.project = !pure_cells && deck.smooth != kSmoothNoSurfaceProjections;
-  if (deck.smooth == kSmoothNoSurfaceProjections) {  // smoother, at the price of some volume
-    s.pairs *= 2;
-    s.grow = -0.45;
-  }
-  return s;
-}
-
-SmoothOptions smooth_options(const Deck& deck, bool pure_cells) {
-  constexpr double kTrueSurfaces =
-      2.5;  // the interface is known better than from voxels, so it is held better
-
-  SmoothOptions s;
-  s.laplacian_passes = std::min(deck.laplacian_iters, kVolumePasses);
-  s.improve_sweeps = deck.max_opt_iters;
-  s.fidelity = pure_cells || deck.smooth == kSmoothNoSurfaceProjections ? 1 : kTrueSurfaces;
-  s.improve_below = deck.opt_threshold;
-  s.target = deck.pcol_threshold;
-  s.target_rounds = deck.max_pcol_iters;
-  s.release_curves_below = deck.curve_opt_thresh;
-  return s;
-}
-
 void print_decomposition(const Log& log, const CartesianParts& parts) {
   constexpr char kAxis[3] = {'X', 'Y', 'Z'};
   const IndexBox first = parts.owned(0);
@@ -97,23 +67,6 @@ void print_decomposition(const Log& log, const CartesianParts& parts) {
     log.line("  Rank 0 Number of cells/segment in directions {}   {}", kAxis[d], first.extent(d));
   for (std::size_t d = 0; d < 3; ++d)
     log.line("  Global Number of grid segments in directions {}   {}", kAxis[d], parts.segments[d]);
-}
-
-void print_smoothing_banner(const Log& log, const Deck& deck) {
-  constexpr const char* kCurve[] = {
-      "OFF", "CIRCLE", "HERMITE", "AVERAGE_TANGENT", "NEIGHBOR_SURFACE_NORMAL", "VFRAC", "LINEAR"};
-  constexpr const char* kSurface[] = {"SMOOTH_OFF", "SMOOTH_SURF_HYBRID", "SMOOTH_SURF_FIXED_BBOX",
-                                      "SMOOTH_SURF_NO_PROJECTIONS"};
-  log.line("Begin smoothing hexes using:");
-  log.line("  Curve Smoothing              = SMOOTH_CURV_{}", kCurve[deck.csmooth]);
-  log.line("  Surface Smoothing            = {}", kSurface[deck.smooth]);
-  log.line("  Volume Smoothing             = SMOOTH_VOL_HYBRID");
-  log.line("  Laplacian Iterations         = {}", deck.laplacian_iters);
-  log.line("  Maximum Optimization Iters   = {}", deck.max_opt_iters);
-  log.line("  Optimization Threshold       = {:f}", deck.opt_threshold);
-  log.line("  Curve Opt. Threshold         = {:f}", deck.curve_opt_thresh);
-  log.line("  Max Parallel Coloring Iters  = {}", deck.max_pcol_iters);
-  log.line("  Parallel Coloring Threshold  = {:f}", deck.pcol_threshold);
 }
 
 void print_mesh_summary(const Comm& comm, const Log& log, const Deck& deck, const WriteSummary& written,
@@ -135,7 +88,9 @@ void print_mesh_summary(const Comm& comm, const Log& log, const Deck& deck, cons
   log.line("  Min Edge Len          {:f}", quality.shortest_edge);
   log.line("  Min Qual Rank         {}", quality.worst.empty() ? 0 : quality.worst.front().owner);
   print_fidelity(log, report);
-  print_below_floor(log, report, deck.pcol_threshold);
+  print_below_floor(
+      log, report,
+      deck.max_gq_iters > 0 ? std::max(deck.pcol_threshold, deck.gq_threshold) : deck.pcol_threshold);
   print_invalid(log, report);
 }
 

@@ -13,9 +13,10 @@
 
 namespace sculpt {
 
-// pure_cells: every cell holds one material only (voxel data).
-[[nodiscard]] InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells);
-[[nodiscard]] SmoothOptions smooth_options(const Deck& deck, bool pure_cells);
+// pure_cells: every cell holds one material only (voxel data). exact: what the input knows of its surfaces.
+[[nodiscard]] InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells,
+                                                     const ExactSurface& exact);
+[[nodiscard]] SmoothOptions smooth_options(const Deck& deck, bool pure_cells, const Vec3& cell_size);
 
 void print_decomposition(const Log& log, const CartesianParts& parts);
 void print_smoothing_banner(const Log& log, const Deck& deck);

@@ -17,4 +17,18 @@ namespace sculpt {
 // that lie on an interface shall stay where they were made.
 [[nodiscard]] Geometry followed(const Geometry& before, const Pillowed& pillowed);
 
+// What interface nodes are held to after the contour: the reconstructed interface or the exact surface, or,
+// for the published method on data without one, the quadrics of the smoothed interface.
+struct HeldInterface {
+  HexMesh cells;  // nodes where the smoothed contour has them
+  Interfaces faces;
+  std::vector<Crossing> crossings;
+  std::vector<Vec3> grid_position;  // of interface nodes in the overlay grid
+  ExactSurface exact;
+  bool quadrics = false;
+};
+
+// Local. Fills geometry.contour.
+void hold(Geometry& geometry, HeldInterface interface);
+
 }  // namespace sculpt

@@ -11,6 +11,7 @@
 
 #include "pipeline/classify.hpp"
 #include "pipeline/console.hpp"
+#include "pipeline/interface_geometry.hpp"
 #include "pipeline/layers.hpp"
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/interfaces.hpp"
@@ -43,6 +44,7 @@ struct Overlay {
   std::optional<NodeHexes> around;
   Index3 grid{0, 0, 0};  // cells per axis, all ranks
   bool pure = true;      // on all ranks every cell holds one material only
+  ExactSurface exact;    // what the input knows of its surfaces
 };
 
 // The source's grid with the expansion layers around it.
@@ -77,7 +79,8 @@ Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages&
                   {},
                   {},
                   grid.cells,
-                  true};
+                  true,
+                  source->exact_surface()};
   const bool pure = overlay.fractions.material.size() == static_cast<std::size_t>(overlay.fractions.cells());
   overlay.pure = comm.min(std::int64_t{pure}) == 1;
   if (deck.micro_expand > 0)
@@ -110,11 +113,20 @@ void refuse_empty_mesh(const Comm& comm, const Overlay& overlay, const std::vect
       overlay.grid[0], overlay.grid[1], overlay.grid[2]));
 }
 
+// Whether smoothing the volume needs to know where the interface is, and not only where its nodes are.
+bool holds_interfaces(const Deck& deck) {
+  return deck.smooth == kSmoothToGeometry || deck.smooth == kSmoothGeoSmooth ||
+         (deck.smooth != kSmoothOff && deck.opt_method == kOptJacobi);
+}
+
 // Interface nodes placed and smoothed on the overlay grid; what the smoother must know of them.
 struct Contour {
   Interfaces faces;
   std::vector<Weight> weights;
   std::vector<Vec3> placed;  // per interface node: where it was before the smoothing
+  // Kept where holds_interfaces().
+  std::vector<Crossing> crossings;
+  std::vector<Vec3> grid_position;
 };
 
 Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stages) {
@@ -122,16 +134,21 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
   Contour c;
   c.faces = trace_interfaces(cells, overlay.neighbours);
   log.line("(4/9) computing dual edge intersections...");
-  const std::vector<Crossing> crossings = edge_crossings(cells, c.faces, overlay.fractions, *overlay.around);
+  c.crossings = edge_crossings(cells, c.faces, overlay.fractions, *overlay.around);
   log.line("(5/9) computing material interfaces...");
-  std::vector<Vec3> grid_position;
-  for (const LocalId n : c.faces.nodes) grid_position.push_back(cells.position[static_cast<std::size_t>(n)]);
-  place_nodes(cells, c.faces, crossings);
+  for (const LocalId n : c.faces.nodes)
+    c.grid_position.push_back(cells.position[static_cast<std::size_t>(n)]);
+  place_nodes(cells, c.faces, c.crossings);
   for (const LocalId n : c.faces.nodes) c.placed.push_back(cells.position[at(n)]);
   stages.end("contour");
   if (deck.smooth != kSmoothOff)
-    smooth_interface(cells, c.faces, crossings, grid_position, interface_smoothing(deck, overlay.pure));
+    smooth_interface(cells, c.faces, c.crossings, c.grid_position,
+                     interface_smoothing(deck, overlay.pure, overlay.exact));
   c.weights = deviation_weights(cells, c.faces);
+  if (!holds_interfaces(deck)) {
+    c.crossings = {};
+    c.grid_position = {};
+  }
   stages.end("smooth interfaces");
   return c;
 }
@@ -165,7 +182,7 @@ Contour stair_interfaces(Overlay& overlay, const std::vector<std::uint8_t>& drop
   log.line("(5/9) computing material interfaces...");
   for (std::size_t c = 0; c < drop.size(); ++c)
     if (drop[c]) overlay.cells.material[c] = -1;
-  return {trace_interfaces(overlay.cells, overlay.neighbours), {}, {}};
+  return {trace_interfaces(overlay.cells, overlay.neighbours), {}, {}, {}, {}};
 }
 
 SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& overlay,
@@ -221,17 +238,24 @@ Meshed stair_mesh(const Comm& comm, const Deck& deck, const Overlay& overlay,
   return {std::move(mesh), 1, {}, {}};
 }
 
-Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, const Contour& shape,
+Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contour& shape,
                     const std::vector<std::uint8_t>& drop, const std::vector<double>& wanted_volumes,
                     const Log& log, Stages& stages) {
   InterfaceTrack track = interface_track(overlay.cells, shape.faces, shape.placed);
   const LayerPlan plan = layer_plan(deck);
+  const bool held = holds_interfaces(deck);
+  HexMesh contoured = held ? overlay.cells : HexMesh{};
   LayeredMesh layered = add_layers(comm, std::move(overlay.cells), std::move(overlay.neighbours), drop,
                                    shape.faces, shape.weights, plan, log);
+  if (held)
+    hold(layered.geometry,
+         {std::move(contoured), std::move(shape.faces), std::move(shape.crossings),
+          std::move(shape.grid_position), deck.smooth == kSmoothToGeometry ? overlay.exact : ExactSurface{},
+          deck.opt_method == kOptJacobi && deck.smooth != kSmoothToGeometry && overlay.pure});
   stages.end("generate hexes");
   log.line("(9/9) begin smoothing...");
   const auto smooth = [&](LayeredMesh& l) {
-    smooth_mesh(l.mesh, l.geometry, smooth_options(deck, overlay.pure), log);
+    smooth_mesh(l.mesh, l.geometry, smooth_options(deck, overlay.pure, l.mesh.cell_size), log);
   };
   const bool smooths = deck.smooth != kSmoothOff;
   // Curves are judged after the smoothing, so that with curve pillows only the smoothing after those is off.
@@ -255,7 +279,7 @@ Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
   const std::vector<std::uint8_t> drop = unmeshed_cells(deck, overlay);
   refuse_empty_mesh(comm, overlay, drop);
   const bool stair = deck.stair != kStairOff;
-  const Contour shape = stair ? stair_interfaces(overlay, drop, log) : contour(deck, overlay, log, stages);
+  Contour shape = stair ? stair_interfaces(overlay, drop, log) : contour(deck, overlay, log, stages);
   overlay.fractions = {};
   overlay.around.reset();
   SidePlan sides = generate_geometry(comm, deck, overlay, shape.faces, drop, log);

@@ -95,6 +95,24 @@ std::int64_t ActiveSet::choose(double quality, int layers, bool only_near) {
   return comm().sum(count);
 }
 
+std::int64_t ActiveSet::choose_if(const std::function<bool(LocalId)>& wanted) {
+  std::int64_t count = 0;
+  for (auto& list : chosen_) list.clear();
+  for (LocalId n = 0; n < mesh_.nodes(); ++n)
+    if (owned(n) && wanted(n)) {
+      chosen_[mesh_.colour[at(n)]].push_back(n);
+      ++count;
+    }
+  return comm().sum(count);
+}
+
+std::vector<LocalId> ActiveSet::chosen() const {
+  std::vector<LocalId> all;
+  for (const auto& list : chosen_) all.insert(all.end(), list.begin(), list.end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
 std::int64_t ActiveSet::sweep(const std::function<bool(LocalId)>& step, double far) {
   std::int64_t moves = 0;
   moved_.clear();
@@ -123,7 +141,7 @@ std::int64_t ActiveSet::sweep(const std::function<bool(LocalId)>& step, double f
     far_nodes.push_back(n);
   }
   spread(near_, far_nodes);
-  refresh_quality();
+  refresh_quality_around(moved_);
   return comm().sum(moves);
 }
 
@@ -152,9 +170,9 @@ void ActiveSet::exchange_moves(double far_squared, int colour) {
       });
 }
 
-void ActiveSet::refresh_quality() {
+void ActiveSet::refresh_quality_around(const std::vector<LocalId>& moved) {
   LocalId first = mesh_.size(), last = 0;
-  for (const LocalId n : moved_)
+  for (const LocalId n : moved)
     for (const std::int32_t item : around_[n]) {
       dirty_[at(item / 8)] = 1;
       first = std::min(first, item / 8);

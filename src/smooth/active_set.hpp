@@ -29,6 +29,11 @@ class ActiveSet {
   // number on all ranks.
   std::int64_t choose(double quality, int layers, bool only_near);
 
+  // Chooses the owned nodes for which wanted(node) holds. Returns their number on all ranks.
+  std::int64_t choose_if(const std::function<bool(LocalId)>& wanted);
+  // The chosen nodes in ascending order.
+  [[nodiscard]] std::vector<LocalId> chosen() const;
+
   // Moves the chosen nodes: step(node) changes the position of one owned node and tells whether it did. Nodes
   // of one colour are visited in ascending order before the ghosts learn of their moves. Returns the moves on
   // all ranks.
@@ -43,6 +48,9 @@ class ActiveSet {
   // Smallest corner determinant, in cells, of the hexes below 0.1; 1 when there are none.
   [[nodiscard]] double least_determinant(const Vec3& scale) const;
   void refresh_all_quality();
+  // After moves that were made outside sweep() and are known to the ghosts: nodes that moved, ghosts
+  // included.
+  void refresh_quality_around(const std::vector<LocalId>& moved);
   // Gives hexes whose Jacobian is not positive somewhere inside the quality 0 until a node of theirs moves.
   // Returns their number on all ranks.
   std::int64_t mark_folded();
@@ -53,7 +61,6 @@ class ActiveSet {
   void spread(std::vector<std::uint8_t>& marks, std::vector<LocalId>& front);
   void fetch_ahead(LocalId hexes_of, LocalId positions_of) const;
   void exchange_moves(double far_squared, int colour);
-  void refresh_quality();
   void refresh_dirty(LocalId first, LocalId last);
 
   HexMesh& mesh_;

@@ -60,6 +60,17 @@ double quadratic(const std::array<double, 6>& w, const Vec3& d) {
 
 }  // namespace
 
+Vec3 Geometry::onto(LocalId entry, const Vec3& p) const {
+  const Vec3& to = target[at(entry)];
+  if (origin[at(entry)] != kNone) return contour(origin[at(entry)], to, p);
+  const auto& w = weight[at(entry)];
+  const Vec3 d = p - to;
+  const Vec3 held = {(w[0] - kSliding) * d.x + w[1] * d.y + w[2] * d.z,
+                     w[1] * d.x + (w[3] - kSliding) * d.y + w[4] * d.z,
+                     w[2] * d.x + w[4] * d.y + (w[5] - kSliding) * d.z};
+  return p - (1 / (1 - kSliding)) * held;
+}
+
 Vec3 NodeStep::deviation(LocalId entry, LocalId node) const {
   return scaled(mesh_.position[at(node)] - geometry_.target[at(entry)], scale_);
 }
@@ -73,6 +84,51 @@ double NodeStep::price(LocalId node, const StepRules& rules) const {
       price *= 0.1;
   }
   return price;
+}
+
+Vec3 NodeStep::towards_geometry(LocalId node, const Vec3& from) const {
+  return held_on_box(geometry_.onto(geometry_.index[at(node)], from) - from, mesh_.box_sides[at(node)]);
+}
+
+// A node that is beyond the limit already may come nearer.
+bool NodeStep::too_far(LocalId node, const Vec3& step, double farthest) const {
+  const Vec3& here = mesh_.position[at(node)];
+  Vec3 there = here;
+  for (std::size_t d = 0; d < 3; ++d) there[d] += step[d] / scale_[d];
+  const double distance = norm(towards_geometry(node, there));
+  return distance > farthest && distance >= norm(towards_geometry(node, here));
+}
+
+bool NodeStep::fit(LocalId node, const StepRules& rules) {
+  star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale_, Star::Target::kPresent);
+  const Star::Shape now = star_.shape({});
+  Vec3& p = mesh_.position[at(node)];
+  Vec3 move = towards_geometry(node, p);
+  for (int halving = 0; halving < 4; ++halving, move = 0.5 * move) {
+    const Star::Shape there = star_.shape(scaled(move, scale_));
+    if (there.scaled_jacobian < std::min(now.scaled_jacobian, rules.least_quality) ||
+        there.edge < std::min(now.edge, rules.least_edge))
+      continue;
+    p += move;
+    return true;
+  }
+  return false;
+}
+
+bool NodeStep::pull_back(LocalId node, double farthest) {
+  constexpr int kTries = 40, kCareful = 5;  // the point of the geometry moves with the node
+  constexpr double kInside = 0.98;
+  if (geometry_.index[at(node)] == kNone) return false;
+  Vec3& p = mesh_.position[at(node)];
+  bool moved = false;
+  for (int i = 0; i < kTries; ++i) {
+    const Vec3 back = towards_geometry(node, p);
+    const double distance = norm(back);
+    if (!(distance > farthest)) break;
+    p += i < kCareful ? (1 - kInside * farthest / distance) * back : back;
+    moved = true;
+  }
+  return moved;
 }
 
 bool NodeStep::newton(LocalId node, const StepRules& rules) {
@@ -100,6 +156,7 @@ bool NodeStep::newton(LocalId node, const StepRules& rules) {
   if (length > longest) step = (longest / length) * step;
   if (!(std::min(length, longest) >= rules.least_move)) return false;
 
+  const bool limited = entry != kNone && std::isfinite(rules.farthest);
   Star::Shape floor{-2, 0};
   if (rules.guarded) {
     const Star::Shape now = star_.shape({});
@@ -111,6 +168,7 @@ bool NodeStep::newton(LocalId node, const StepRules& rules) {
                               ? there.energy
                               : there.energy + price_of * quadratic(geometry_.weight[at(entry)], off + step);
     if (!(energy < at0.energy) || there.not_positive > at0.not_positive) continue;
+    if (limited && too_far(node, step, rules.farthest)) continue;
     if (rules.guarded) {
       const Star::Shape shape = star_.shape(step);
       if (shape.scaled_jacobian < floor.scaled_jacobian || shape.edge < floor.edge) continue;
@@ -123,12 +181,13 @@ bool NodeStep::newton(LocalId node, const StepRules& rules) {
   return false;
 }
 
-bool NodeStep::climb(LocalId node, double least_edge) {
+bool NodeStep::climb(LocalId node, const StepRules& rules) {
   constexpr double kDifference = 1e-5, kBand = 0.02;
   constexpr int kMost = 10;
   bool any = false;
   Vec3& p = mesh_.position[at(node)];
   const std::uint8_t sides = mesh_.box_sides[at(node)];
+  const bool limited = geometry_.index[at(node)] != kNone && std::isfinite(rules.farthest);
   for (int round = 0; round < 5; ++round) {
     star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale_, Star::Target::kPresent);
     const Star::Shape now = star_.shape({});
@@ -173,8 +232,10 @@ bool NodeStep::climb(LocalId node, double least_edge) {
     bool raised = false;
     for (int halving = 0; halving < 7 && !raised; ++halving, step = 0.5 * step) {
       const Star::Shape there = star_.shape(step);
-      if (there.scaled_jacobian <= now.scaled_jacobian + 1e-4 || there.edge < std::min(now.edge, least_edge))
+      if (there.scaled_jacobian <= now.scaled_jacobian + 1e-4 ||
+          there.edge < std::min(now.edge, rules.least_edge))
         continue;
+      if (limited && too_far(node, step, rules.farthest)) continue;
       for (std::size_t d = 0; d < 3; ++d)
         if (step[d] != 0) p[d] += step[d] / scale_[d];
       raised = any = true;

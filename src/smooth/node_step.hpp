@@ -18,6 +18,8 @@ struct StepRules {
   double least_move = 1e-3;    // shorter steps are not made, in cells
   double release_curves_below =
       -1;  // curve nodes with a worse corner deviate at a tenth of the price; negative: tenfold
+  double farthest =
+      std::numeric_limits<double>::infinity();  // of interface nodes from the geometry, a length
 };
 
 class NodeStep {
@@ -27,11 +29,19 @@ class NodeStep {
 
   // Coordinates are multiplied by this before lengths are compared: 1 / cell size.
   void set_scale(const Vec3& scale) { scale_ = scale; }
-  // Both return whether the node was moved.
+  // All return whether the node was moved.
   bool newton(LocalId node, const StepRules& rules);
-  bool climb(LocalId node, double least_edge);
+  bool climb(LocalId node, const StepRules& rules);
+  // An interface node goes towards its point of the geometry as far as quality and edges allow.
+  bool fit(LocalId node, const StepRules& rules);
+  // An interface node farther than this from the geometry is pulled back to that distance.
+  bool pull_back(LocalId node, double farthest);
+
+  // From an owned interface node to its point of the geometry, along its box sides.
+  [[nodiscard]] Vec3 towards_geometry(LocalId node, const Vec3& from) const;
 
  private:
+  [[nodiscard]] bool too_far(LocalId node, const Vec3& step, double farthest) const;
   [[nodiscard]] double price(LocalId node, const StepRules& rules) const;
   [[nodiscard]] Vec3 deviation(LocalId entry, LocalId node) const;
 

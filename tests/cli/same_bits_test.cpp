@@ -170,6 +170,27 @@ TEST_F(SameBits, SeparatedByVoid) {
 
 TEST_F(SameBits, FixedBox) { expect_same(grains(8, 6, 5), "smooth = fixed_bbox\ncsmooth = vfrac\n", kFew); }
 
+TEST_F(SameBits, GuaranteedQuality) {
+  expect_same(grains(8, 8, 4), "max_gq_iters = 6\ngq_threshold = 0.5\n", kFew);
+}
+
+TEST_F(SameBits, OnTheSpheres) {
+  write("spheres.diatom", two_spheres());
+  expect_same(two_spheres_deck("spheres.diatom") + "smooth = to_geometry\n", kFew);
+}
+
+TEST_F(SameBits, NearTheGeometry) {
+  expect_same(grains(8, 8, 4), "smooth = geo_smooth\ngeo_smooth_max_deviation = 0.3\n", kFew);
+}
+
+TEST_F(SameBits, Quadrics) {
+  expect_same(grains(8, 8, 4), "smooth = 2\nsurface_projection = quadric\n", kFew);
+}
+
+TEST_F(SameBits, PublishedMethod) {
+  expect_same(grains(8, 8, 4), "opt_method = jacobi\npcol_threshold = 0.2\n", kFew);
+}
+
 TEST_F(SameBits, UnmeshedVoid) { expect_same(letter_f(), "void_mat = 1\n", kFew); }
 
 TEST_F(SameBits, Stairs) {

@@ -1,5 +1,8 @@
 #include "support/stages.hpp"
 
+#include <cmath>
+
+#include "pipeline/interface_geometry.hpp"
 #include "pipeline/layers.hpp"
 #include "sculpt/contour/contour.hpp"
 #include "sculpt/distribute/cartesian.hpp"
@@ -50,7 +53,8 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   place_nodes(cells, faces, crossings);
   note("contour", cells);
   InterfaceSmoothing smoothing = options.interfaces;
-  smoothing.project = !input.pure;
+  if (!input.pure && smoothing.projection == SurfaceProjection::kOff)
+    smoothing.projection = SurfaceProjection::kInterface;
   smooth_interface(cells, faces, crossings, grid_position, smoothing);
   note("smooth interfaces", cells);
 
@@ -65,7 +69,11 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   note("pillow", layered.mesh);
   SmoothOptions volume_smoothing = options.smoothing;
   volume_smoothing.fidelity = input.pure ? 1 : 2.5;
-  const auto smooth = [&](LayeredMesh& l) { smooth_mesh(l.mesh, l.geometry, volume_smoothing, Log()); };
+  const bool published = volume_smoothing.method == OptimisationMethod::kPublished;
+  if (published || volume_smoothing.hold_on_geometry || std::isfinite(volume_smoothing.max_deviation))
+    hold(layered.geometry,
+         {cells, faces, crossings, grid_position, smoothing.exact, published && input.pure});
+  const auto smooth = [&](LayeredMesh& l) { smooth_mesh(l.mesh, l.geometry, volume_smoothing, options.log); };
   smooth(layered);
   note("smooth", layered.mesh);
   if (options.layers.curves) {
@@ -74,6 +82,7 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
     note("pillow curves", layered.mesh);
   }
   result.pillows = layered.pillows;
+  result.geometry = std::move(layered.geometry);
   result.mesh = std::move(layered.mesh);
   return result;
 }

@@ -32,6 +32,7 @@ struct StageOptions {
   std::int32_t void_material = -1;  // left out of the mesh
   InterfaceSmoothing interfaces;    // whether to project is decided by the input, as the program does
   SmoothOptions smoothing;
+  Log log;  // of the volume smoothing
 };
 
 struct StageChecksum {
@@ -42,6 +43,7 @@ struct StageChecksum {
 struct StagesResult {
   HexMesh mesh;
   int pillows = 0;
+  Geometry geometry;       // of its interface nodes
   std::int64_t cells = 0;  // that are part of the mesh, all ranks
   std::int64_t quads = 0;  // interface quads of this rank's cells
   std::vector<StageChecksum> checksums;

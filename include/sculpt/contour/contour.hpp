@@ -34,8 +34,18 @@ struct Crossing {
                                   const std::vector<Crossing>& crossings, std::size_t interface_node,
                                   const Vec3& p);
 
-// Collective. Moves every interface node of the mesh onto the interface. A node stays on its box sides and
-// moves at most 0.7 of a cell per axis (0.45 on the box).
+// Local. As onto_interface, but a surface node goes to the exact surface where the input knows it.
+[[nodiscard]] Vec3 onto_geometry(const HexMesh& mesh, const Interfaces& faces,
+                                 const std::vector<Crossing>& crossings, const ExactSurface& exact,
+                                 std::size_t interface_node, const Vec3& p);
+
+// Local. A point of the interface as far as the node may go there from its place in the overlay grid: along
+// its box sides, and at most 0.7 of a cell per axis (0.45 on the box).
+[[nodiscard]] Vec3 within_reach(const HexMesh& mesh, LocalId node, const Vec3& grid_position,
+                                const Vec3& point);
+
+// Collective. Moves every interface node of the mesh, from its place in the overlay grid, onto the interface
+// within its reach.
 void place_nodes(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings);
 
 }  // namespace sculpt

@@ -2,11 +2,13 @@
 // Smooths the contoured interface while it is still a surface mesh on the overlay grid. Voxel data: Taubin
 // pairs of a shrinking and a growing Jacobi pass take the noise out (no projection, hardly any change of
 // volume). Data with true volume fractions has no such noise: there the passes only spread the nodes on the
-// interface, with a projection back to it. Curves move along their own edges by the chosen rule.
+// interface, with a projection back to it. The report's projection to a quadric is a third way. Curves move
+// along their own edges by the chosen rule.
 #include <vector>
 
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/contour.hpp"
+#include "sculpt/contour/quadric.hpp"
 #include "sculpt/mesh/hex_mesh.hpp"
 
 namespace sculpt {
@@ -22,10 +24,18 @@ enum class CurveRule {
   kLinear
 };
 
+// What follows a shrinking pass.
+enum class SurfaceProjection {
+  kOff,        // a growing pass
+  kQuadric,    // surface nodes go to the quadric of their neighbours before the pass
+  kInterface,  // every node goes back to the interface as it was reconstructed, or to the exact surface
+};
+
 struct InterfaceSmoothing {
-  int pairs = 5;         // a shrinking and a growing pass each
-  double grow = -0.53;   // share of the way in the growing pass; Taubin's keeps volumes best
-  bool project = false;  // shrinking passes only, each followed by a projection to the interface
+  int pairs = 5;        // of a shrinking pass and what follows it
+  double grow = -0.53;  // share of the way in the growing pass; Taubin's keeps volumes best
+  SurfaceProjection projection = SurfaceProjection::kOff;
+  ExactSurface exact{};  // used by kInterface, where there is one
   CurveRule curve = CurveRule::kHermite;
 };
 
@@ -33,6 +43,12 @@ struct InterfaceSmoothing {
 // 0.45 of a cell per axis from there (0.75 with projection, but on the box). Box sides are kept exactly.
 void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
                       const std::vector<Vec3>& grid_position, const InterfaceSmoothing& options);
+
+// Local. The quadric of the surface around a surface node, from the nodes of the quads there. position:
+// of an interface node. Right at owned nodes.
+[[nodiscard]] Quadric surface_quadric(const HexMesh& mesh, const Interfaces& faces,
+                                      std::size_t interface_node,
+                                      const std::function<Vec3(LocalId)>& position);
 
 // What later stages may do to an interface node: a symmetric matrix (xx xy xz yy yz zz) that weighs a
 // deviation d as d.W.d: the normal direction of a surface, all but the tangent of a curve, everything at a

@@ -60,6 +60,16 @@ enum Csmooth : int {
   kCsmoothLinear = 6,
 };
 
+// Options of ours, not Sculpt's.
+enum SurfaceProjectionChoice : int {
+  kProjectionAutomatic = 0,
+  kProjectionNone = 1,
+  kProjectionQuadric = 2,
+  kProjectionInterface = 3,
+};
+enum OptMethod : int { kOptNewton = 0, kOptJacobi = 1 };
+enum OptMetric : int { kOptShape = 0, kOptShapeAndSize = 1 };
+
 enum Pillow : int {
   kPillowOff = 0,
   kPillowSurfaces = 1,
@@ -236,7 +246,11 @@ struct Deck {
   double pcol_threshold = 0.3;
   int max_gq_iters = 0;
   double gq_threshold = 0.2;
-  double geo_smooth_max_deviation = 0;
+  double geo_smooth_max_deviation = 0;  // 0: half a cell
+  int surface_projection = kProjectionAutomatic;
+  int opt_method = kOptNewton;
+  bool opt_damping = true;
+  int opt_metric = kOptShape;
 
   // Mesh Improvement
   int pillow = kPillowOff;

@@ -3,6 +3,7 @@
 // of the input. Lines run parallel to an axis a; a line is given by its coordinates u on axis (a+1)%3 and v
 // on axis (a+2)%3.
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "sculpt/base/vec3.hpp"
@@ -30,6 +31,11 @@ class Shape {
   // The three spans are equally long.
   virtual void chords(std::size_t axis, double u, std::span<const double> v, std::span<double> lo,
                       std::span<double> hi) const = 0;
+  // The point of the surface nearest to p, where the shape can tell it in closed form.
+  [[nodiscard]] virtual std::optional<Vec3> nearest_on_surface(const Vec3& p) const {
+    (void)p;
+    return std::nullopt;
+  }
 };
 
 }  // namespace sculpt

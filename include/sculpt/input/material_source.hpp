@@ -1,6 +1,7 @@
 #pragma once
 // Where materials come from: a file or a geometry that can say, for any box of cells, which materials they
 // hold. One class per format; the rest of the program knows only this face.
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -50,6 +51,10 @@ struct MaterialData {
   Fractions fractions;  // of the cells of this rank's wanted box, x fastest
 };
 
+// The nearest point to p on the surface of a shape of material a or b (dense indices); nothing when no such
+// surface is near. Empty where the input is data and not shapes.
+using ExactSurface = std::function<std::optional<Vec3>(const Vec3& p, std::int32_t a, std::int32_t b)>;
+
 class MaterialSource {
  public:
   virtual ~MaterialSource() = default;
@@ -58,6 +63,8 @@ class MaterialSource {
   // Collective. wanted[r] = the cells rank r needs (known to all ranks; boxes may overlap or be empty). Reads
   // large files once, all ranks together, and leaves on each rank only what it wanted. Throws AgreedError.
   [[nodiscard]] virtual MaterialData read(const Comm& comm, std::span<const IndexBox> wanted) = 0;
+  // What the input knows exactly of its surfaces. Stays usable when the source is gone.
+  [[nodiscard]] virtual ExactSurface exact_surface() const { return {}; }
 };
 
 // Collective. Opens the one geometry source of the deck, checks what can be checked before reading the data,

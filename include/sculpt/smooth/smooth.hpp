@@ -4,6 +4,7 @@
 // another in an order that depends on global ids only, nodes of one colour at the same time.
 #include <array>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,10 +16,26 @@ namespace sculpt {
 
 // The interface nodes: where each should stay and how a deviation d weighs (d.W.d, W = xx xy xz yy yz zz).
 struct Geometry {
+  static constexpr double kSliding = 0.1;  // weight of a tangential deviation
+
   std::vector<LocalId> index;  // per mesh node: its entry below or kNone
   std::vector<Vec3> target;
   std::vector<std::array<double, 6>> weight;
   std::vector<std::uint8_t> on_curve;  // 1 for nodes of curves and vertices
+  std::vector<LocalId> origin;  // the interface node of the contour that it is, kNone for a copy of one
+  // The point of the geometry that belongs to an interface node of the contour (of an owned node) when it is
+  // at p; target: where the contour has it. Box sides are not considered. May be empty where nothing asks for
+  // onto(): neither hold_on_geometry, max_deviation nor the published method.
+  std::function<Vec3(LocalId origin, const Vec3& target, const Vec3& p)> contour;
+
+  // The point that belongs to an entry when its node is at p. A copy is held to the plane or line through its
+  // target that its weight tells.
+  [[nodiscard]] Vec3 onto(LocalId entry, const Vec3& p) const;
+};
+
+enum class OptimisationMethod {
+  kNewton,     // this program's own
+  kPublished,  // the report's: Jacobi optimisation and colouring (sections 2.12.3 and 2.12.4)
 };
 
 struct SmoothOptions {
@@ -30,6 +47,14 @@ struct SmoothOptions {
   double fidelity = 1;         // weight of deviations of interface nodes from where they were put
   double release_curves_below =
       0.1;  // curve nodes of hexes below it may leave their curve; negative: held harder
+  bool hold_on_geometry = false;  // interface nodes end as near to the geometry as the target allows
+  double max_deviation =
+      std::numeric_limits<double>::infinity();  // of interface nodes from the geometry; a length
+  int guarantee_rounds = 0;                     // most rounds in which interfaces give way more and more
+  double guarantee = 0.2;                       // to this scaled Jacobian
+  OptimisationMethod method = OptimisationMethod::kNewton;
+  bool damping = true;      // published method: the n-th of N passes goes n/N of the way
+  bool size_aware = false;  // published method: quality counts short and long edges (equations 2.9-2.11)
 };
 
 // Collective. The mesh needs one ghost layer of hexes. Every hex ends with a positive Jacobian if any way to

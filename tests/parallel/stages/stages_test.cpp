@@ -99,6 +99,40 @@ TEST(SameMesh, UnderAllCurveRules) {
   }
 }
 
+TEST(SameMesh, OnQuadrics) {
+  StageOptions options;
+  options.interfaces.projection = SurfaceProjection::kQuadric;
+  expect_same_alone_and_together(grains({8, 7, 7}, 8, 4, 9), options);
+}
+
+TEST(SameMesh, WithGuaranteedQuality) {
+  StageOptions options;
+  options.smoothing.guarantee_rounds = 4;
+  options.smoothing.guarantee = 0.5;
+  expect_same_alone_and_together(grains({8, 8, 7}, 10, 5, 3), options);
+}
+
+TEST(SameMesh, HeldOnTheGeometryOrNearIt) {
+  StageOptions options;
+  options.smoothing.hold_on_geometry = true;
+  options.smoothing.fidelity = 10;
+  expect_same_alone_and_together(grains({8, 7, 7}, 9, 5, 4), options);
+  expect_same_alone_and_together(ball({8, 8, 8}, {4.2, 3.9, 4}, 2.7), options);
+  options.smoothing.hold_on_geometry = false;
+  options.smoothing.max_deviation = 0.2;
+  expect_same_alone_and_together(noise({6, 6, 6}, 3, 12), options);
+}
+
+TEST(SameMesh, OfThePublishedMethod) {
+  StageOptions options;
+  options.smoothing.method = OptimisationMethod::kPublished;
+  options.smoothing.target = 0.2;
+  expect_same_alone_and_together(grains({8, 7, 7}, 9, 5, 4), options);
+  options.smoothing.damping = false;
+  options.smoothing.size_aware = true;
+  expect_same_alone_and_together(two_phase_fractions({6, 6, 6}, 8), options);
+}
+
 // Every option of the filter at once and alone, on data that needs it.
 TEST(FilterMaterials, IsTheSameAloneAndTogether) {
   const Comm world = Comm::world();

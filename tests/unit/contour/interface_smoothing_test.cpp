@@ -82,11 +82,63 @@ TEST(SmoothInterface, ProjectsToTheTrueSurface) {
   const Vec3 centre{6.1, 5.9, 6};
   Surface s = surface(test::ball({12, 12, 12}, centre, 4));
   place_nodes(s.cells, s.faces, s.crossings);
-  smooth_interface(s.cells, s.faces, s.crossings, s.grid_position, {.project = true});
+  smooth_interface(s.cells, s.faces, s.crossings, s.grid_position,
+                   {.projection = SurfaceProjection::kInterface});
   double worst = 0;
   for (const LocalId n : s.faces.nodes)
     worst = std::max(worst, std::fabs(norm(s.cells.position[static_cast<std::size_t>(n)] - centre) - 4));
   EXPECT_LT(worst, 0.1);
+}
+
+// On quadrics a ball of voxels keeps its size; plain shrinking draws it in.
+TEST(SmoothInterface, OnQuadricsABallKeepsItsSize) {
+  const Vec3 centre{8, 8, 8};
+  Surface s = surface(test::voxels("ball", {16, 16, 16}, 2, [&](const Index3& c) {
+    const Vec3 p{static_cast<double>(c[0]) + 0.5, static_cast<double>(c[1]) + 0.5,
+                 static_cast<double>(c[2]) + 0.5};
+    return norm(p - centre) < 5 ? 1 : 0;
+  }));
+  const auto mean_radius = [&] {
+    double sum = 0;
+    for (const LocalId n : s.faces.nodes) sum += norm(s.cells.position[static_cast<std::size_t>(n)] - centre);
+    return sum / static_cast<double>(s.faces.nodes.size());
+  };
+  place_nodes(s.cells, s.faces, s.crossings);
+  const std::vector<Vec3> placed = s.cells.position;
+  const double before = mean_radius();
+  smooth_interface(s.cells, s.faces, s.crossings, s.grid_position, {.pairs = 5, .grow = 0});
+  EXPECT_LT(mean_radius(), before - 0.15);
+  s.cells.position = placed;
+  smooth_interface(s.cells, s.faces, s.crossings, s.grid_position,
+                   {.pairs = 5, .projection = SurfaceProjection::kQuadric});
+  EXPECT_NEAR(mean_radius(), before, 0.05);
+}
+
+TEST(SmoothInterface, GoesToTheExactSurface) {
+  const Vec3 centre{6.1, 5.9, 6};
+  Surface s = surface(test::ball({12, 12, 12}, centre, 4));
+  place_nodes(s.cells, s.faces, s.crossings);
+  const ExactSurface sphere = [&](const Vec3& p, std::int32_t a, std::int32_t b) {
+    EXPECT_EQ(a, 0);
+    EXPECT_EQ(b, 1);
+    return std::optional<Vec3>(centre + 4 * unit(p - centre));
+  };
+  smooth_interface(s.cells, s.faces, s.crossings, s.grid_position,
+                   {.projection = SurfaceProjection::kInterface, .exact = sphere});
+  for (const LocalId n : s.faces.nodes)
+    EXPECT_NEAR(norm(s.cells.position[static_cast<std::size_t>(n)] - centre), 4, 1e-9);
+}
+
+TEST(SmoothInterface, LeavesAFlatInterfaceAloneToTheLastBit) {
+  for (const SurfaceProjection projection :
+       {SurfaceProjection::kOff, SurfaceProjection::kQuadric, SurfaceProjection::kInterface}) {
+    Surface s = surface(test::voxels(
+        "cross", {6, 5, 4}, 4, [](const Index3& c) { return (c[0] < 3 ? 0 : 1) + (c[1] < 2 ? 0 : 2); }));
+    const std::vector<Vec3> before = s.cells.position;
+    place_nodes(s.cells, s.faces, s.crossings);
+    smooth_interface(s.cells, s.faces, s.crossings, s.grid_position, {.projection = projection});
+    EXPECT_EQ(s.cells.position, before);
+  }
 }
 
 TEST(SmoothInterface, WithoutPairsDoesNothing) {

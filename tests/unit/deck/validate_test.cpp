@@ -41,6 +41,13 @@ opt_threshold = 0.7
 curve_opt_thresh = -1
 max_pcol_iters = 0
 pcol_threshold = 0.2
+max_gq_iters = 5
+gq_threshold = 0.4
+geo_smooth_max_deviation = 0.1
+surface_projection = quadric
+opt_method = jacobi
+opt_damping = false
+opt_metric = shape_and_size
 pillow_surfaces = true
 pillow = 1
 micro_expand = 2
@@ -68,8 +75,6 @@ TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
 }
 
 TEST(Validate, RefusesUnsupportedValues) {
-  EXPECT_EQ(verdict(kSpn + "smooth = to_geom"),
-            "option 'smooth' (line 6 of deck.i): value to_geometry (4) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "defeature = 3"),
             "option 'defeature' (line 6 of deck.i): value filter_and_collapse (3) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "gen_sidesets = 9"),

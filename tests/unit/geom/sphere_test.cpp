@@ -52,5 +52,12 @@ TEST(Sphere, SteepestAxisIsThatOfTheNormal) {
   EXPECT_EQ(kBall.steepest_axis({4, 5, 6}), 0U) << "the lowest of equals";
 }
 
+TEST(Sphere, NearestPointOfTheSurface) {
+  const Sphere ball({1, 2, 3}, 2);
+  EXPECT_EQ(ball.nearest_on_surface({1, 2, 3.5}), (Vec3{1, 2, 5}));
+  EXPECT_EQ(ball.nearest_on_surface({11, 2, 3}), (Vec3{3, 2, 3}));
+  EXPECT_FALSE(ball.nearest_on_surface({1, 2, 3}).has_value());
+}
+
 }  // namespace
 }  // namespace sculpt

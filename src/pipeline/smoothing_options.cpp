@@ -1,0 +1,103 @@
+// What the options of smoothing mean for the stages, and the banner that tells them.
+#include <algorithm>
+
+#include "pipeline/console.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr int kVolumePasses =
+    5;  // of the Laplacian on volume nodes; more change nothing that the optimisation keeps
+
+constexpr double kTrueSurfaces = 2.5;  // the interface is known better than from voxels, so it is held better
+constexpr double kHeldSurfaces = 10;   // interface nodes that are to end on the geometry
+
+// Whether surfaces are smoothed without regard to where the interface was reconstructed.
+bool lets_surfaces_go(const Deck& deck) {
+  return deck.smooth == kSmoothNoSurfaceProjections || deck.smooth == kSmoothGeoSmooth;
+}
+
+SurfaceProjection surface_projection(const Deck& deck, bool pure_cells) {
+  if (deck.smooth == kSmoothToGeometry) return SurfaceProjection::kInterface;
+  switch (deck.surface_projection) {
+    case kProjectionNone:
+      return SurfaceProjection::kOff;
+    case kProjectionQuadric:
+      return SurfaceProjection::kQuadric;
+    case kProjectionInterface:
+      return SurfaceProjection::kInterface;
+    default:
+      return pure_cells || lets_surfaces_go(deck) ? SurfaceProjection::kOff : SurfaceProjection::kInterface;
+  }
+}
+
+}  // namespace
+
+InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells, const ExactSurface& exact) {
+  InterfaceSmoothing s;
+  s.curve = static_cast<CurveRule>(deck.csmooth);
+  s.pairs = deck.laplacian_iters;
+  s.projection = surface_projection(deck, pure_cells);
+  if (deck.smooth == kSmoothToGeometry) s.exact = exact;
+  if (lets_surfaces_go(deck)) {  // smoother, at the price of some volume
+    s.pairs *= 2;
+    s.grow = -0.45;
+  }
+  return s;
+}
+
+SmoothOptions smooth_options(const Deck& deck, bool pure_cells, const Vec3& cell_size) {
+  SmoothOptions s;
+  s.laplacian_passes = std::min(deck.laplacian_iters, kVolumePasses);
+  s.improve_sweeps = deck.max_opt_iters;
+  s.fidelity = pure_cells || lets_surfaces_go(deck) ? 1 : kTrueSurfaces;
+  s.improve_below = deck.opt_threshold;
+  s.target = deck.pcol_threshold;
+  s.target_rounds = deck.max_pcol_iters;
+  s.release_curves_below = deck.curve_opt_thresh;
+  s.guarantee_rounds = deck.max_gq_iters;
+  s.guarantee = deck.gq_threshold;
+  if (deck.smooth == kSmoothToGeometry) {
+    s.hold_on_geometry = true;
+    s.fidelity = kHeldSurfaces;
+  }
+  if (deck.smooth == kSmoothGeoSmooth)
+    s.max_deviation = deck.geo_smooth_max_deviation > 0
+                          ? deck.geo_smooth_max_deviation
+                          : 0.5 * std::min({cell_size.x, cell_size.y, cell_size.z});
+  if (deck.opt_method == kOptJacobi) {
+    s.method = OptimisationMethod::kPublished;
+    s.laplacian_passes = deck.laplacian_iters;
+    s.damping = deck.opt_damping;
+    s.size_aware = deck.opt_metric == kOptShapeAndSize;
+  }
+  return s;
+}
+
+void print_smoothing_banner(const Log& log, const Deck& deck) {
+  constexpr const char* kCurve[] = {
+      "OFF", "CIRCLE", "HERMITE", "AVERAGE_TANGENT", "NEIGHBOR_SURFACE_NORMAL", "VFRAC", "LINEAR"};
+  constexpr const char* kSurface[] = {"SMOOTH_OFF",
+                                      "SMOOTH_SURF_HYBRID",
+                                      "SMOOTH_SURF_FIXED_BBOX",
+                                      "SMOOTH_SURF_NO_PROJECTIONS",
+                                      "SMOOTH_SURF_TO_GEOMETRY",
+                                      "SMOOTH_SURF_GEO_SMOOTH"};
+  log.line("Begin smoothing hexes using:");
+  log.line("  Curve Smoothing              = SMOOTH_CURV_{}", kCurve[deck.csmooth]);
+  log.line("  Surface Smoothing            = {}", kSurface[deck.smooth]);
+  log.line("  Volume Smoothing             = {}",
+           deck.opt_method == kOptJacobi ? "SMOOTH_VOL_JACOBI" : "SMOOTH_VOL_HYBRID");
+  log.line("  Laplacian Iterations         = {}", deck.laplacian_iters);
+  log.line("  Maximum Optimization Iters   = {}", deck.max_opt_iters);
+  log.line("  Optimization Threshold       = {:f}", deck.opt_threshold);
+  log.line("  Curve Opt. Threshold         = {:f}", deck.curve_opt_thresh);
+  log.line("  Max Parallel Coloring Iters  = {}", deck.max_pcol_iters);
+  log.line("  Parallel Coloring Threshold  = {:f}", deck.pcol_threshold);
+  if (deck.max_gq_iters > 0) {
+    log.line("  Max Guaranteed Quality Iters = {}", deck.max_gq_iters);
+    log.line("  Guaranteed Quality Threshold = {:f}", deck.gq_threshold);
+  }
+}
+
+}  // namespace sculpt

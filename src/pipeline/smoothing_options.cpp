@@ -9,6 +9,9 @@ namespace {
 constexpr int kVolumePasses =
     5;  // of the Laplacian on volume nodes; more change nothing that the optimisation keeps
 
+constexpr int kFreePairs = 4;         // more where surfaces are let go, and with less growth between them:
+constexpr double kFreeGrowth = -0.3;  // voxel noise goes, and some volume
+
 constexpr double kTrueSurfaces = 2.5;  // the interface is known better than from voxels, so it is held better
 constexpr double kHeldSurfaces = 10;   // interface nodes that are to end on the geometry
 
@@ -40,8 +43,8 @@ InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells, const 
   s.projection = surface_projection(deck, pure_cells);
   if (deck.smooth == kSmoothToGeometry) s.exact = exact;
   if (lets_surfaces_go(deck)) {  // smoother, at the price of some volume
-    s.pairs *= 2;
-    s.grow = -0.45;
+    s.grow = kFreeGrowth;
+    if (s.pairs > 0) s.pairs += kFreePairs;
   }
   return s;
 }

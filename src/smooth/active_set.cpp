@@ -191,6 +191,22 @@ std::int64_t ActiveSet::mark_folded() {
   return comm().sum(count);
 }
 
+std::int64_t ActiveSet::mark_short(double edge) {
+  std::int64_t count = 0;
+  std::array<LocalId, 8> batch;
+  for (LocalId first = 0; first < mesh_.size(); first += 8) {
+    const auto size = static_cast<std::size_t>(std::min<LocalId>(8, mesh_.size() - first));
+    for (std::size_t i = 0; i < size; ++i) batch[i] = first + static_cast<LocalId>(i);
+    const HexQuality q = quality_of(mesh_.hexes, mesh_.position, {batch.data(), size});
+    for (std::size_t i = 0; i < size; ++i) {
+      if (!(q.shortest_edge[i] < edge)) continue;
+      quality_[at(batch[i])] = 0;
+      count += mesh_.layer[at(batch[i])] == 0;
+    }
+  }
+  return comm().sum(count);
+}
+
 ActiveSet::Worst ActiveSet::worst(double target) const {
   Worst w;
   for (std::size_t h = 0; h < quality_.size(); ++h) {

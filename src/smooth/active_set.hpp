@@ -54,6 +54,9 @@ class ActiveSet {
   // Gives hexes whose Jacobian is not positive somewhere inside the quality 0 until a node of theirs moves.
   // Returns their number on all ranks.
   std::int64_t mark_folded();
+  // Gives hexes with an edge shorter than this the quality 0, until a node of theirs moves or
+  // refresh_all_quality(). Returns their number on all ranks.
+  std::int64_t mark_short(double edge);
 
  private:
   // Marks the nodes of all hexes that have a node of `front` (all marked 1); front becomes the newly marked

@@ -13,9 +13,10 @@ namespace sculpt {
 namespace {
 
 constexpr int kUntangleSweeps = 60, kBulkSweeps = 3, kUntangleRound = 15;
-constexpr int kRaiseAttempts = 3, kUnfoldSweeps = 6;
-constexpr int kAttempts = 3;        // of all phases, each from another place
-constexpr double kFolded = 1e-6;    // the quality that marks a folded hex is below this
+constexpr int kRaiseAttempts = 3, kUnfoldSweeps = 6, kLengthenSweeps = 6;
+constexpr double kShort = 0.06, kLongEnough = 0.1;  // edges, in cells
+constexpr int kAttempts = 3;                        // of all phases, each from another place
+constexpr double kFolded = 1e-6;                    // the quality that marks a folded hex is below this
 constexpr double kFar = 0.05;       // a move that makes the neighbours worth another visit, in cells
 constexpr double kMargin = 0.05;    // hexes this little above the target are raised as well
 constexpr double kGiveWay = 0.3;    // price of deviation from one round of the guarantee to the next
@@ -83,6 +84,23 @@ class Phases {
       if (unfold()) break;
       if (attempt < kAttempts) relax_everything(attempt);
     }
+    without_folding([&] { lengthen(); });
+  }
+
+  // The scaled Jacobian does not see an edge that is about to vanish: nodes of short edges take steps that
+  // also look at the size, without loss of quality below the target.
+  void lengthen() {
+    StepRules rules = raising_rules(0.1 * options_.fidelity);
+    rules.target_lengths = Star::Target::kUnit;
+    rules.least_edge = kLongEnough;
+    for (int i = 0; i < kLengthenSweeps; ++i, rules.penalty *= 0.5) {
+      const std::int64_t hexes = set_.mark_short(kShort * size_);
+      if (hexes == 0) break;
+      log_.line("Lengthening Iter: {}, hexes with an edge below {:g} cells: {}", i + 1, kShort, hexes);
+      set_.choose(kFolded, i / 2, false);
+      sweep(rules, kFar);
+    }
+    set_.refresh_all_quality();
   }
 
   std::int64_t sweep(const StepRules& rules, double far) {

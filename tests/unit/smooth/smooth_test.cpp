@@ -78,6 +78,18 @@ TEST(SmoothMesh, KeepsABallRound) {
   EXPECT_NEAR(test::volumes(mesh, 2)[1], 4.0 / 3 * std::acos(-1.0) * 64, 0.03 * 268);
 }
 
+TEST(SmoothMesh, LeavesNoEdgeThatIsAboutToVanish) {
+  for (const test::Case& input :
+       {test::noise({12, 12, 12}, 3, 2), test::ball({14, 14, 14}, {6.9, 7.2, 7.1}, 4.3),
+        test::two_phase_fractions({12, 11, 10}, 6)}) {
+    const test::StagesResult r = test::run_stages(Comm::self(), input);
+    const QualitySummary s = summarise(Comm::self(), r.mesh);
+    EXPECT_GE(s.shortest_edge, 0.05) << input.name;
+    EXPECT_GE(s.least, 0.3 - 1e-6) << input.name;
+    EXPECT_EQ(s.not_positive_inside, 0) << input.name;
+  }
+}
+
 // Planes on cell faces that cross each other: pillows move, interfaces do not.
 TEST(SmoothMesh, LeavesPlaneInterfacesWhereTheyAre) {
   const test::Case cross = test::voxels(

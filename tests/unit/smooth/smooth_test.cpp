@@ -78,15 +78,17 @@ TEST(SmoothMesh, KeepsABallRound) {
   EXPECT_NEAR(test::volumes(mesh, 2)[1], 4.0 / 3 * std::acos(-1.0) * 64, 0.03 * 268);
 }
 
+// Polycrystals with surface pillows on which the optimisation alone leaves edges of 0.018 and 0.034.
 TEST(SmoothMesh, LeavesNoEdgeThatIsAboutToVanish) {
-  for (const test::Case& input :
-       {test::noise({12, 12, 12}, 3, 2), test::ball({14, 14, 14}, {6.9, 7.2, 7.1}, 4.3),
-        test::two_phase_fractions({12, 11, 10}, 6)}) {
-    const test::StagesResult r = test::run_stages(Comm::self(), input);
+  for (const std::uint64_t seed : {10U, 11U}) {
+    test::StageOptions options;
+    options.layers.surfaces = true;
+    const test::StagesResult r =
+        test::run_stages(Comm::self(), test::grains({14, 13, 12}, 12, 8, seed), options);
     const QualitySummary s = summarise(Comm::self(), r.mesh);
-    EXPECT_GE(s.shortest_edge, 0.05) << input.name;
-    EXPECT_GE(s.least, 0.3 - 1e-6) << input.name;
-    EXPECT_EQ(s.not_positive_inside, 0) << input.name;
+    EXPECT_GE(s.shortest_edge, 0.05) << seed;
+    EXPECT_GE(s.least, 0.3) << seed;
+    EXPECT_EQ(s.not_positive_inside, 0) << seed;
   }
 }
 

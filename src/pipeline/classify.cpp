@@ -54,6 +54,21 @@ void report_filter(const Deck& deck, const FilterReport& report, const Log& log)
              report.rounds);
 }
 
+// stair = fast keeps the cells as they come.
+void warn_of_idle_options(const Deck& deck, const Log& log) {
+  std::string idle;
+  const auto add = [&idle](bool given, const char* name) {
+    if (given) idle += fmt::format("{}{}", idle.empty() ? "" : ", ", name);
+  };
+  add(deck.defeature != kDefeatureOff, "defeature");
+  add(!deck.thicken_material.empty(), "thicken_material");
+  add(deck.thicken_void > 0, "thicken_void");
+  add(deck.micro_shave, "micro_shave");
+  add(deck.resolve_reversals, "resolve_reversals");
+  add(deck.keep_materials, "keep_materials");
+  if (!idle.empty()) log.line("  WARNING: stair = fast filters nothing; no effect: {}", idle);
+}
+
 // The table's void, made when there is none.
 std::int32_t void_of(MaterialTable& materials, const Deck& deck) {
   if (!materials.void_material) {
@@ -224,7 +239,10 @@ std::vector<double> classify(const Comm& comm, const Deck& deck, HexMesh& cells,
   stages.end("classify materials");
   log.line("(3/9) resolving non-manifolds...");
   std::vector<double> wanted(materials.block_id.size(), -1);
-  if (deck.stair == kStairFast) return wanted;
+  if (deck.stair == kStairFast) {
+    warn_of_idle_options(deck, log);
+    return wanted;
+  }
   around.emplace(cells);
   wanted = Classifier(comm, deck, cells, fractions, materials, neighbours, *around, log).run(mesh_volumes);
   report_lost(comm, cells, input_cells, materials, log);

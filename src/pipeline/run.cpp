@@ -153,19 +153,21 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
   return c;
 }
 
-// Volume of each material, in cells, if the cells were contoured as they are now.
+// Volume of each material, in cells, if the cells were meshed as they are now (stair) or contoured.
 std::vector<double> contoured_volumes(const Comm& comm, const Deck& deck, Overlay& overlay) {
   constexpr double kUnits = 1073741824.0;  // 2^30: sums of integers do not depend on ranks
   HexMesh& cells = overlay.cells;
   const std::vector<Vec3> grid = cells.position;
   Stages untimed;
-  const Contour shape = contour(deck, overlay, Log(false), untimed);
+  Contour shape;
+  if (deck.stair == kStairOff) shape = contour(deck, overlay, Log(false), untimed);
   const double cell = cells.cell_size.x * cells.cell_size.y * cells.cell_size.z;
   std::vector<std::int64_t> units(overlay.materials.block_id.size(), 0);
   for (LocalId c = 0; c < cells.size(); ++c) {
     if (cells.layer[at(c)] != 0) continue;
     bool bent = false;
-    for (const LocalId n : cells.hexes[at(c)]) bent = bent || shape.faces.index_of[at(n)] != kNone;
+    for (const LocalId n : cells.hexes[at(c)])
+      bent = bent || (!shape.faces.index_of.empty() && shape.faces.index_of[at(n)] != kNone);
     units[at(cells.material[at(c)])] +=
         std::llround(kUnits * (bent ? hex_volume(cells.corners(c)) / cell : 1.0));
   }

@@ -9,8 +9,9 @@ namespace {
 constexpr int kVolumePasses =
     5;  // of the Laplacian on volume nodes; more change nothing that the optimisation keeps
 
-constexpr int kFreePairs = 4;         // more where surfaces are let go, and with less growth between them:
-constexpr double kFreeGrowth = -0.3;  // voxel noise goes, and some volume
+// Where surfaces are let go: more passes with less growth between them. Voxel noise goes, and some volume.
+constexpr int kFreePairs = 4, kLeastFreePairs = 8;
+constexpr double kFreeGrowth = -0.3;
 
 constexpr double kTrueSurfaces = 2.5;  // the interface is known better than from voxels, so it is held better
 constexpr double kHeldSurfaces = 10;   // interface nodes that are to end on the geometry
@@ -44,7 +45,7 @@ InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells, const 
   if (deck.smooth == kSmoothToGeometry) s.exact = exact;
   if (lets_surfaces_go(deck)) {  // smoother, at the price of some volume
     s.grow = kFreeGrowth;
-    if (s.pairs > 0) s.pairs += kFreePairs;
+    if (s.pairs > 0) s.pairs = std::max(s.pairs + kFreePairs, kLeastFreePairs);
   }
   return s;
 }

@@ -8,11 +8,12 @@
 namespace sculpt {
 namespace {
 
-constexpr double kShrink = 0.5;              // share of the way in the shrinking pass of a pair
-constexpr double kFarthest = 0.45;           // from the grid position, in cells per axis
-constexpr double kFarthestProjected = 0.75;  // the same where nodes are held on the interface
-constexpr double kRounding = 1e-12;          // shorter ways to the interface, in cells, are none
-constexpr double kSliding = 0.1;             // weight of a tangential deviation
+constexpr double kShrink = 0.5;               // share of the way in the shrinking pass of a pair
+constexpr double kFarthest = 0.45;            // from the grid position, in cells per axis
+constexpr double kFarthestFromContour = 0.5;  // by smoothing without projection, in cells
+constexpr double kFarthestProjected = 0.75;   // the same where nodes are held on the interface
+constexpr double kRounding = 1e-12;           // shorter ways to the interface, in cells, are none
+constexpr double kSliding = 0.1;              // weight of a tangential deviation
 
 class Smoother {
  public:
@@ -166,10 +167,17 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
         break;
     }
   }
+  std::vector<Vec3> placed;
+  for (const LocalId n : faces.nodes) placed.push_back(mesh.position[at(n)]);
   smoother.finish();
   const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
   for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
     Vec3& p = mesh.position[at(faces.nodes[i])];
+    if (options.projection == SurfaceProjection::kOff) {
+      const Vec3 way = p - placed[i];
+      const double length = norm(scaled(way, in_cells));
+      if (length > kFarthestFromContour) p = placed[i] + (kFarthestFromContour / length) * way;
+    }
     // On the box a node cannot follow a surface that ends short of it: there the side may not close up.
     const bool held = mesh.box_sides[at(faces.nodes[i])] != 0;
     const double farthest =

@@ -10,7 +10,7 @@ constexpr int kVolumePasses =
     5;  // of the Laplacian on volume nodes; more change nothing that the optimisation keeps
 
 // Where surfaces are let go: more passes with less growth between them. Voxel noise goes, and some volume.
-constexpr int kFreePairs = 4, kLeastFreePairs = 8;
+constexpr int kFreePairs = 4, kLeastFreePairs = 12;
 constexpr double kFreeGrowth = -0.3;
 
 constexpr double kTrueSurfaces = 2.5;  // the interface is known better than from voxels, so it is held better

@@ -40,7 +40,8 @@ struct InterfaceSmoothing {
 };
 
 // Collective. grid_position: where the interface nodes stood in the overlay grid; no node ends farther than
-// 0.45 of a cell per axis from there (0.75 with projection, but on the box). Box sides are kept exactly.
+// 0.45 of a cell per axis from there (0.75 with projection, but on the box), and without projection none goes
+// farther than half a cell. Box sides are kept exactly.
 void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
                       const std::vector<Vec3>& grid_position, const InterfaceSmoothing& options);
 

@@ -41,7 +41,7 @@ struct InterfaceSmoothing {
 
 // Collective. grid_position: where the interface nodes stood in the overlay grid; no node ends farther than
 // 0.45 of a cell per axis from there (0.75 with projection, but on the box), and without projection none goes
-// farther than half a cell. Box sides are kept exactly.
+// farther than 0.55 of a cell. Box sides are kept exactly.
 void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
                       const std::vector<Vec3>& grid_position, const InterfaceSmoothing& options);
 

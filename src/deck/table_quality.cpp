@@ -50,8 +50,8 @@ constexpr EnumValue kPillows[] = {{"off", kPillowOff},
 constexpr EnumValue kDefeatures[] = {{"off", kDefeatureOff},
                                      {"none", kDefeatureOff},
                                      {"filter", kDefeatureFilter},
-                                     {"collapse", kDefeatureCollapse, false},
-                                     {"filter_and_collapse", kDefeatureAll, false}};
+                                     {"collapse", kDefeatureCollapse},
+                                     {"filter_and_collapse", kDefeatureAll}};
 
 constexpr Group kS = Group::kSmoothing;
 constexpr OptionSpec kSmoothingOptions[] = {
@@ -323,9 +323,9 @@ constexpr OptionSpec kImproveOptions[] = {
      .group = kM,
      .slot = &Deck::defeature,
      .help = "Remove small features",
-     .about = "filter: small volumes, protrusions and isthmuses are given to their neighbours. collapse: "
-              "small curves and "
-              "surfaces.",
+     .about = "filter: small volumes, protrusions and isthmuses are given to their neighbours. collapse: the "
+              "smallest "
+              "surfaces, contacts of two materials in a single face, are removed. filter_and_collapse: both.",
      .supported = true,
      .values = kDefeatures},
     {.name = "min_vol_cells",

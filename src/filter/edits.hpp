@@ -109,29 +109,62 @@ class ManifoldRepair {
   std::unique_ptr<Work> work_;
 };
 
-// Reassigns cells with at least four faces towards other materials (protrusions and isthmuses), until there
-// are none.
-class Protrusions {
+// An operation that changes single cells for reasons found within a few cells around, until there are no
+// candidates. Candidates claim the cells around them; the cheapest go first.
+class CellChanges {
  public:
-  // at_box: faces on the box count as faces towards other materials.
-  Protrusions(Edits& edits, bool at_box) : edits_(edits), at_box_(at_box) {}
-  // Collective. Returns the number of changes on all ranks.
-  std::int64_t remove();
+  virtual ~CellChanges() = default;
+  CellChanges(const CellChanges&) = delete;
+  CellChanges& operator=(const CellChanges&) = delete;
+  // Collective. Looks at all cells first, later at those around changes only. Returns the number of changes
+  // on all ranks.
+  std::int64_t run();
 
- private:
-  [[nodiscard]] std::int32_t better(LocalId cell) const;
-  void collect();
-  std::int64_t pass();
-  [[nodiscard]] bool wins(LocalId cell) const;
+ protected:
+  // reach: what is decided about a cell depends on cells this far away (1: sharing a node), at most 2.
+  CellChanges(Edits& edits, int reach) : edits_(edits), reach_(reach) {}
+  // Local. The material that an owned cell should go to, kNone for a cell that stays. Every change must bring
+  // the end nearer.
+  [[nodiscard]] virtual std::int32_t better(LocalId cell) const = 0;
 
   Edits& edits_;
-  bool at_box_;
+
+ private:
+  void collect();
+  std::int64_t pass();
+  [[nodiscard]] bool wins(LocalId cell);
+  const std::vector<LocalId>& around(LocalId cell);
+
+  int reach_;
   bool first_ = true;
   std::size_t seen_ = 0;            // changes of the cells looked at so far
   std::vector<LocalId> examine_;    // owned cells to look at
   std::vector<double> claim_;       // per cell: price of its candidate change in this pass
   std::vector<std::uint8_t> flag_;  // per cell, scratch
-  std::vector<LocalId> claimed_ghosts_;
+  std::vector<LocalId> claimed_ghosts_, around_;
+};
+
+// Protrusions and isthmuses: cells with at least four faces towards other materials.
+class Protrusions : public CellChanges {
+ public:
+  // at_box: faces on the box count as faces towards other materials.
+  Protrusions(Edits& edits, bool at_box) : CellChanges(edits, 1), at_box_(at_box) {}
+
+ private:
+  [[nodiscard]] std::int32_t better(LocalId cell) const override;
+  bool at_box_;
+};
+
+// Collapses small surfaces: contacts of two materials in a single face. Lattices only.
+class Collapses : public CellChanges {
+ public:
+  explicit Collapses(Edits& edits) : CellChanges(edits, 2) {}
+
+ private:
+  [[nodiscard]] std::int32_t better(LocalId cell) const override;
+  [[nodiscard]] bool alone(LocalId cell, std::size_t face) const;
+  [[nodiscard]] int alone_around(LocalId cell) const;
+  [[nodiscard]] bool manifold_around(LocalId cell) const;
 };
 
 }  // namespace sculpt

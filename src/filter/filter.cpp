@@ -38,24 +38,30 @@ FilterReport filter_materials(HexMesh& mesh, const Fractions& fractions, const F
   if (options.shave_to) report.shaved = shave_boundary(edits, *options.shave_to);
   ManifoldRepair repair(edits);
   Protrusions protrusions(edits, options.defeature_box);
+  Collapses collapses(edits);
+  const bool rounds = options.defeature || options.collapse;
   std::int64_t changes = 1;
-  while (options.defeature && changes > 0 && report.rounds < options.defeature_rounds) {
-    const IslandReport islands = remove_islands(edits, options.min_vol_cells - 1);
-    const std::int64_t protruding = protrusions.remove(), repaired = repair.run(report);
-    std::int64_t reversed = 0;
-    changes = islands.cells + protruding + repaired;
-    if (options.reversals && changes == 0) changes = reversed = repair.remove_reversals(report);
+  while (rounds && changes > 0 && report.rounds < options.defeature_rounds) {
+    const IslandReport islands =
+        options.defeature ? remove_islands(edits, options.min_vol_cells - 1) : IslandReport{};
+    const std::int64_t protruding = options.defeature ? protrusions.run() : 0;
+    std::int64_t repaired = repair.run(report);
+    const std::int64_t collapsed = options.collapse ? collapses.run() : 0;
+    changes = islands.cells + protruding + repaired + collapsed;
+    if (options.reversals && changes == 0) changes = repaired = repair.remove_reversals(report);
     ++report.rounds;
     report.islands += islands.islands;
     report.island_cells += islands.cells;
     report.protrusions += protruding;
+    report.collapses += collapsed;
     if (said)
-      said(fmt::format("defeature iter {}: {} islands ({} cells), {} protrusions, {} cells for manifolds",
-                       report.rounds, islands.islands, islands.cells, protruding, repaired + reversed));
+      said(fmt::format(
+          "defeature iter {}: {} islands ({} cells), {} protrusions, {} cells for manifolds, {} collapsed",
+          report.rounds, islands.islands, islands.cells, protruding, repaired, collapsed));
   }
-  report.settled = !options.defeature || changes == 0;
+  report.settled = !rounds || changes == 0;
   repair.run(report);
-  if (options.reversals && (!options.defeature || !report.settled)) repair.remove_reversals(report);
+  if (options.reversals && (!rounds || !report.settled)) repair.remove_reversals(report);
   return report;
 }
 

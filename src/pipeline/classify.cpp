@@ -33,6 +33,7 @@ FilterOptions filter_options(const Deck& deck, const MaterialTable& materials) {
   const bool first_is_void = materials.void_material == 0 && materials.block_id.size() > 1;
   if (deck.micro_shave) o.shave_to = first_is_void ? 1 : 0;
   o.defeature = deck.defeature == kDefeatureFilter || deck.defeature == kDefeatureAll;
+  o.collapse = deck.defeature == kDefeatureCollapse || deck.defeature == kDefeatureAll;
   o.min_vol_cells = deck.min_vol_cells;
   o.defeature_box = deck.defeature_bbox;
   o.defeature_rounds = deck.defeature_iters;

@@ -24,6 +24,7 @@ struct FilterOptions {
   std::optional<std::int32_t> shave_to;
   bool defeature = false;           // remove islands, protrusions and isthmuses
   std::int64_t min_vol_cells = 5;   // a connected piece with this many cells or fewer is an island
+  bool collapse = false;            // remove contacts of two materials in a single face
   bool defeature_box = false;       // faces on the box count as faces towards other materials
   int defeature_rounds = 10;        // most rounds of defeaturing and manifold repair
   bool reversals = false;           // remove faces of one interface that are back to back at a node
@@ -33,6 +34,7 @@ struct FilterOptions {
 struct FilterReport {
   std::int64_t shaved = 0;  // cells
   std::int64_t islands = 0, island_cells = 0, protrusions = 0;
+  std::int64_t collapses = 0;       // cells changed to remove contacts in a single face
   int rounds = 0;                   // of defeaturing
   bool settled = true;              // the last round changed nothing
   std::int64_t reversals = 0;       // nodes with a reversal before they were removed

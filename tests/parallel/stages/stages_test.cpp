@@ -136,17 +136,18 @@ TEST(SameMesh, OfThePublishedMethod) {
 // Every option of the filter at once and alone, on data that needs it.
 TEST(FilterMaterials, IsTheSameAloneAndTogether) {
   const Comm world = Comm::world();
-  FilterOptions shave, defeature, all;
+  FilterOptions shave, defeature, collapse, all;
+  collapse.collapse = true;
   shave.shave_to = 0;
   defeature.defeature = true;
   defeature.min_vol_cells = 3;
   all = defeature;
-  all.defeature_box = all.reversals = true;
+  all.defeature_box = all.reversals = all.collapse = true;
   all.shave_to = 1;
   all.keep_materials = 30;
   for (const Case& input : {noise({7, 6, 9}, 6, 9), noise({9, 8, 7}, 2, 3), grains({10, 9, 8}, 40, 30, 7),
                             two_phase_fractions({8, 9, 7}, 4)})
-    for (const FilterOptions& options : {shave, defeature, all}) {
+    for (const FilterOptions& options : {shave, defeature, collapse, all}) {
       Overlay together = overlay(world, input), alone = overlay(input);
       const auto filter = [&options](Overlay& o) {
         return filter_materials(o.cells, o.fractions, face_neighbours(o.cells), NodeHexes(o.cells), options);
@@ -156,6 +157,7 @@ TEST(FilterMaterials, IsTheSameAloneAndTogether) {
       EXPECT_EQ(a.islands, b.islands) << input.name;
       EXPECT_EQ(a.island_cells, b.island_cells) << input.name;
       EXPECT_EQ(a.protrusions, b.protrusions) << input.name;
+      EXPECT_EQ(a.collapses, b.collapses) << input.name;
       EXPECT_EQ(a.rounds, b.rounds) << input.name;
       EXPECT_EQ(a.reversals, b.reversals) << input.name;
       EXPECT_EQ(checksum(world, together.cells), checksum(Comm::self(), alone.cells)) << input.name;

@@ -75,8 +75,6 @@ TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
 }
 
 TEST(Validate, RefusesUnsupportedValues) {
-  EXPECT_EQ(verdict(kSpn + "defeature = 3"),
-            "option 'defeature' (line 6 of deck.i): value filter_and_collapse (3) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "gen_sidesets = 9"),
             "option 'gen_sidesets' (line 6 of deck.i): value input_mesh (9) is not supported yet");
 }

@@ -163,6 +163,58 @@ TEST(Defeature, IsIdempotent) {
   }
 }
 
+// A bar of 2 stands on a wall of 1; width: cells across.
+Overlay bar_on_wall(std::int64_t width) {
+  return test::overlay(test::voxels("bar", {8, 7, 7}, 3, [=](const Index3& c) -> std::int32_t {
+    if (c[0] < 3) return 1;
+    return c[0] < 6 && c[1] >= 3 && c[1] < 3 + width && c[2] == 3 ? 2 : 0;
+  }));
+}
+
+TEST(Collapse, RemovesAContactInOneFace) {
+  Overlay o = bar_on_wall(1), untouched = bar_on_wall(1);
+  FilterOptions options;
+  EXPECT_EQ(filter(untouched, options).collapses, 0) << "not asked for";
+  options.collapse = true;
+  const FilterReport report = filter(o, options);
+  EXPECT_EQ(report.collapses, 1);
+  EXPECT_TRUE(report.settled);
+  std::vector<std::int32_t> expected = untouched.cells.material;
+  expected[3 + 8 * (3 + 7 * 3)] = 0;
+  EXPECT_EQ(o.cells.material, expected) << "the foot of the bar, and nothing else";
+  EXPECT_EQ(filter(o, options).collapses, 0);
+}
+
+TEST(Collapse, LeavesAContactInTwoFaces) {
+  Overlay o = bar_on_wall(2);
+  FilterOptions options;
+  options.collapse = true;
+  EXPECT_EQ(filter(o, options).collapses, 0);
+}
+
+TEST(Collapse, IsIdempotent) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    Overlay o = test::overlay(test::grains({13, 12, 11}, 150, 150, seed));
+    FilterOptions options;
+    options.collapse = true;
+    EXPECT_GT(filter(o, options).collapses, 0) << seed;
+    const std::vector<std::int32_t> material = o.cells.material;
+    EXPECT_TRUE(interfaces_are_manifold(o.cells, face_neighbours(o.cells), NodeHexes(o.cells)));
+    EXPECT_EQ(filter(o, options).collapses, 0) << seed;
+    EXPECT_EQ(o.cells.material, material) << seed;
+  }
+}
+
+TEST(Collapse, SparesLockedCells) {
+  Overlay o = test::overlay(test::grains({13, 12, 11}, 300, 300, 4));
+  const std::set<std::int32_t> before(o.cells.material.begin(), o.cells.material.end());
+  FilterOptions options;
+  options.collapse = true;
+  options.keep_materials = 300;
+  EXPECT_GT(filter(o, options).collapses, 0);
+  EXPECT_EQ(std::set<std::int32_t>(o.cells.material.begin(), o.cells.material.end()), before);
+}
+
 TEST(KeepMaterials, LeavesNoneWithoutACell) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const test::Case input = test::grains({12, 12, 12}, 300, 300, seed);

@@ -184,7 +184,7 @@ class Classifier {
       fractions_ = input;
       assign_materials(cells_, fractions_, neighbours_);
       thicken_and_filter(trial, quiet);
-      return ThickeningTrial{mesh_volumes(), areas(comm_, cells_, neighbours_, count)};
+      return ThickeningTrial{mesh_volumes(), areas(comm_, cells_, neighbours_, materials_.block_id.size())};
     });
     for (const Thickening& line : lines)
       if (line.automatic)

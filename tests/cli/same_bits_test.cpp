@@ -163,7 +163,7 @@ TEST_F(SameBits, ThickenedToTheInputVolume) {
 }
 
 TEST_F(SameBits, SeparatedByVoid) {
-  expect_same(grains(9, 5, 6), "thicken_void = 0.4\n", kFew);
+  expect_same(grains(9, 5, 6), "thicken_void = 0.4\nthicken_material = 2 auto\n", kFew);
   const RankMesh mesh =
       expect_same(grains(9, 5, 6), "thicken_void = 1\nmesh_void = true\nvoid_mat = 77\n", kFew);
   EXPECT_EQ(hexes_by_block(mesh).count(77), 1U);

@@ -406,7 +406,7 @@ TEST_F(Quality, SummaryTellsFidelity) {
   EXPECT_NEAR(summary(out, "Min Edge Len (cells)"), summary(out, "Min Edge Len"), 1e-9);
   EXPECT_NE(out.find("\n  From Contour (cells)  max "), std::string::npos);
   EXPECT_NE(out.find("\n  From Target (cells)   max "), std::string::npos);
-  EXPECT_NE(out.find("\n  Worst valid hexes below pcol_threshold = 0.9:\n    hex "), std::string::npos);
+  EXPECT_NE(out.find("\n  Worst valid hexes below 0.9:\n    hex "), std::string::npos);
   // Half of what the table of volumes says.
   const Words lines = lines_of(out);
   const auto table = std::find(lines.begin(), lines.end(), "VOLUME COMPARISON");

@@ -8,12 +8,12 @@
 namespace sculpt {
 namespace {
 
-constexpr double kShrink = 0.5;               // share of the way in the shrinking pass of a pair
-constexpr double kFarthest = 0.45;            // from the grid position, in cells per axis
+constexpr double kShrink = 0.5;                // share of the way in the shrinking pass of a pair
+constexpr double kFarthest = 0.45;             // from the grid position, in cells per axis
 constexpr double kFarthestFromContour = 0.55;  // by smoothing without projection, in cells
-constexpr double kFarthestProjected = 0.75;   // the same where nodes are held on the interface
-constexpr double kRounding = 1e-12;           // shorter ways to the interface, in cells, are none
-constexpr double kSliding = 0.1;              // weight of a tangential deviation
+constexpr double kFarthestProjected = 0.75;    // the same where nodes are held on the interface
+constexpr double kRounding = 1e-12;            // shorter ways to the interface, in cells, are none
+constexpr double kSliding = 0.1;               // weight of a tangential deviation
 
 class Smoother {
  public:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "pipeline/thickening.hpp"
 #include "sculpt/filter/filter.hpp"
@@ -73,7 +74,10 @@ void warn_of_idle_options(const Deck& deck, const Log& log) {
 // The table's void, made when there is none.
 std::int32_t void_of(MaterialTable& materials, const Deck& deck) {
   if (!materials.void_material) {
-    const std::int64_t largest = materials.block_id.back();
+    const std::int64_t largest = *std::max_element(materials.block_id.begin(), materials.block_id.end());
+    if (deck.void_mat == 0 && largest >= std::numeric_limits<std::int32_t>::max())
+      throw Error(
+          fmt::format("thicken_void needs an id for the void, but {} is taken; give void_mat", largest));
     materials.void_material = static_cast<std::int32_t>(materials.block_id.size());
     materials.block_id.push_back(deck.void_mat > 0 ? deck.void_mat : largest + 1);
   }
@@ -156,6 +160,13 @@ class Classifier {
     bool search = false;
     for (const MaterialValue& t : deck_.thicken_material) {
       const bool automatic = t.value == MaterialValue::kAuto;
+      const auto same = [&t](const MaterialValue& o) {
+        return o.id == t.id && o.value == MaterialValue::kAuto;
+      };
+      if (automatic && std::count_if(deck_.thicken_material.begin(), deck_.thicken_material.end(), same) > 1)
+        throw Error(
+            fmt::format("option 'thicken_material' ({}): material {} has more than one automatic value",
+                        deck_.given_options.place("thicken_material"), t.id));
       lines.push_back({material_with_id(materials_, t.id, deck_), automatic ? 0 : t.value, automatic});
       search = search || automatic;
     }

@@ -9,9 +9,10 @@ namespace {
 constexpr int kVolumePasses =
     5;  // of the Laplacian on volume nodes; more change nothing that the optimisation keeps
 
-// Where surfaces are let go: more passes with less growth between them. Voxel noise goes, and some volume.
-constexpr int kFreePairs = 4, kLeastFreePairs = 12;
-constexpr double kFreeGrowth = -0.3;
+// Where surfaces are let go: more pairs with a little less growth between them. Voxel noise goes, and some
+// volume.
+constexpr int kLeastFreePairs = 20;
+constexpr double kFreeGrowth = -0.45;
 
 constexpr double kTrueSurfaces = 2.5;  // the interface is known better than from voxels, so it is held better
 constexpr double kHeldSurfaces = 10;   // interface nodes that are to end on the geometry
@@ -45,7 +46,7 @@ InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells, const 
   if (deck.smooth == kSmoothToGeometry) s.exact = exact;
   if (lets_surfaces_go(deck)) {  // smoother, at the price of some volume
     s.grow = kFreeGrowth;
-    if (s.pairs > 0) s.pairs = std::max(s.pairs + kFreePairs, kLeastFreePairs);
+    if (s.pairs > 0) s.pairs = std::max(2 * s.pairs, kLeastFreePairs);
   }
   return s;
 }

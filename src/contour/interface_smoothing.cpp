@@ -13,7 +13,6 @@ constexpr double kFarthest = 0.45;             // from the grid position, in cel
 constexpr double kFarthestFromContour = 0.55;  // by smoothing without projection, in cells
 constexpr double kFarthestProjected = 0.75;    // the same where nodes are held on the interface
 constexpr double kRounding = 1e-12;            // shorter ways to the interface, in cells, are none
-constexpr double kSliding = 0.1;               // weight of a tangential deviation
 
 class Smoother {
  public:

@@ -1,19 +1,17 @@
 // Islands, protrusions and isthmuses (the report, section 2.7.2).
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <tuple>
 
 #include "filter/edits.hpp"
+#include "sculpt/base/fixed_point.hpp"
 #include "sculpt/vfrac/fractions.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr double kNoClaim = std::numeric_limits<double>::infinity();
-constexpr double kUnits = 1073741824.0;  // 2^30 per unit of fraction
-constexpr int kForeignFaces = 4;         // of a protrusion or isthmus
+constexpr int kForeignFaces = 4;  // of a protrusion or isthmus
 
 // The contact of a small piece with one material around it.
 struct Contact {
@@ -58,7 +56,7 @@ void find_contacts(const Edits& edits, const Pieces& p, const std::vector<std::u
       const bool first = small[other] && rank_of(other) < rank_of(mine);
       (p.shared[mine] ? shared : inner)
           .push_back({p.label[mine], edits.material(n), first, !small[other], 1,
-                      std::llround(kUnits * fraction_of(edits.fractions, c, edits.material(n)))});
+                      to_units(fraction_of(edits.fractions, c, edits.material(n)))});
     }
   }
 }

@@ -14,7 +14,8 @@ namespace sculpt {
 
 class Edits {
  public:
-  static constexpr int kFreezeAfter = 4;  // changes of one cell; then only the last resort may change it
+  static constexpr int kFreezeAfter =
+      4;  // changes of one cell; then the manifold repair leaves it but as a last resort
 
   Edits(HexMesh& of, const Fractions& their_fractions, const FaceNeighbours& their_neighbours,
         const NodeHexes& around_nodes)

@@ -1,10 +1,8 @@
 #include "sculpt/mesh/edit.hpp"
 
 namespace sculpt {
-namespace {
 
-// New indices of what is kept, ascending; kNone for the rest.
-std::vector<LocalId> renumbered(std::span<const std::uint8_t> drop) {
+std::vector<LocalId> indices_without(std::span<const std::uint8_t> drop) {
   std::vector<LocalId> index(drop.size(), kNone);
   LocalId next = 0;
   for (std::size_t i = 0; i < drop.size(); ++i)
@@ -12,15 +10,20 @@ std::vector<LocalId> renumbered(std::span<const std::uint8_t> drop) {
   return index;
 }
 
-template <class T>
-void compact(std::vector<T>& list, const std::vector<LocalId>& index) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < index.size(); ++i)
-    if (index[i] != kNone) list[kept++] = list[i];
-  list.resize(kept);
+std::vector<LocalId> drop_unused_nodes(HexMesh& mesh) {
+  std::vector<std::uint8_t> unused(mesh.position.size(), 1);
+  for (const Hex& h : mesh.hexes)
+    for (const LocalId n : h) unused[at(n)] = 0;
+  std::vector<LocalId> node = indices_without(unused);
+  compact(mesh.position, node);
+  compact(mesh.node_id, node);
+  compact(mesh.node_owner, node);
+  compact(mesh.box_sides, node);
+  compact(mesh.colour, node);
+  for (Hex& h : mesh.hexes)
+    for (LocalId& n : h) n = node[at(n)];
+  return node;
 }
-
-}  // namespace
 
 void transform(HexMesh& mesh, const Vec3& scale, const Vec3& translate) {
   for (Vec3& p : mesh.position)
@@ -29,7 +32,7 @@ void transform(HexMesh& mesh, const Vec3& scale, const Vec3& translate) {
 }
 
 std::vector<LocalId> remove_hexes(const Comm& comm, HexMesh& mesh, std::span<const std::uint8_t> remove) {
-  std::vector<LocalId> hex = renumbered(remove);
+  std::vector<LocalId> hex = indices_without(remove);
   compact(mesh.hexes, hex);
   compact(mesh.hex_id, hex);
   compact(mesh.hex_owner, hex);
@@ -37,17 +40,7 @@ std::vector<LocalId> remove_hexes(const Comm& comm, HexMesh& mesh, std::span<con
   compact(mesh.material, hex);
   mesh.lattice = {0, 0, 0};
   // An owner sees all hexes around its nodes, so that it keeps every node that another rank keeps.
-  std::vector<std::uint8_t> unused(mesh.position.size(), 1);
-  for (const Hex& h : mesh.hexes)
-    for (const LocalId n : h) unused[at(n)] = 0;
-  const std::vector<LocalId> node = renumbered(unused);
-  compact(mesh.position, node);
-  compact(mesh.node_id, node);
-  compact(mesh.node_owner, node);
-  compact(mesh.box_sides, node);
-  compact(mesh.colour, node);
-  for (Hex& h : mesh.hexes)
-    for (LocalId& n : h) n = node[at(n)];
+  drop_unused_nodes(mesh);
   mesh.node_exchange = GhostExchange(comm, mesh.node_id, mesh.node_owner);
   mesh.hex_exchange = GhostExchange(comm, mesh.hex_id, mesh.hex_owner);
   return hex;

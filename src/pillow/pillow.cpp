@@ -6,6 +6,7 @@
 
 #include "pillow/edge_walk.hpp"
 #include "sculpt/mesh/adjacency.hpp"
+#include "sculpt/mesh/edit.hpp"
 
 namespace sculpt {
 namespace {
@@ -44,7 +45,7 @@ class Pillower {
     find_wrapped_faces();
     number_nodes();
     make_hexes();
-    drop_unused_nodes();
+    forget_unused_nodes();
     if (rules_.with_neighbours) connect();
     HexMesh& out = result_.mesh;
     out.colours = mesh_.colours;
@@ -297,34 +298,11 @@ class Pillower {
     out.material.push_back(mesh_.material[at(from)]);
   }
 
-  void drop_unused_nodes() {
-    HexMesh& out = result_.mesh;
-    std::vector<LocalId> renumbered(out.position.size(), kNone);
-    for (const Hex& hex : out.hexes)
-      for (const LocalId n : hex) renumbered[at(n)] = 0;
-    LocalId next = 0;
-    for (std::size_t n = 0; n < renumbered.size(); ++n) {
-      if (renumbered[n] == kNone) continue;
-      const std::size_t to = at(next);
-      out.position[to] = out.position[n];
-      out.node_id[to] = out.node_id[n];
-      out.node_owner[to] = out.node_owner[n];
-      out.box_sides[to] = out.box_sides[n];
-      out.colour[to] = out.colour[n];
-      result_.source[to] = result_.source[n];
-      result_.copied[to] = result_.copied[n];
-      renumbered[n] = next++;
-    }
-    out.position.resize(at(next));
-    out.node_id.resize(at(next));
-    out.node_owner.resize(at(next));
-    out.box_sides.resize(at(next));
-    out.colour.resize(at(next));
-    result_.source.resize(at(next));
-    result_.copied.resize(at(next));
-    for (Hex& hex : out.hexes)
-      for (LocalId& n : hex) n = renumbered[at(n)];
-    for (InterfaceCopy& copy : result_.on_interface) copy.node = renumbered[at(copy.node)];
+  void forget_unused_nodes() {
+    const std::vector<LocalId> index = drop_unused_nodes(result_.mesh);
+    compact(result_.source, index);
+    compact(result_.copied, index);
+    for (InterfaceCopy& copy : result_.on_interface) copy.node = index[at(copy.node)];
     std::erase_if(result_.on_interface, [](const InterfaceCopy& copy) { return copy.node == kNone; });
   }
 

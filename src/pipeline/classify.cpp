@@ -14,7 +14,6 @@
 namespace sculpt {
 namespace {
 
-constexpr double kUnits = 1073741824.0;  // 2^30: fractions are summed as integers, in any order
 constexpr int kSeparations = 5;  // rounds of separating and filtering; one is enough but for odd places
 
 std::int32_t material_with_id(const MaterialTable& materials, std::int64_t id, const Deck& deck) {
@@ -109,22 +108,6 @@ void report_lost(const Comm& comm, const HexMesh& cells, const std::vector<std::
              lost > 10 ? " ..." : "");
 }
 
-// Volume of each material by its fractions, in cells, all ranks.
-std::vector<double> volumes(const Comm& comm, const HexMesh& cells, const Fractions& fractions,
-                            std::size_t materials) {
-  std::vector<std::int64_t> units(materials, 0);
-  for (std::size_t c = 0; c < cells.hexes.size(); ++c) {
-    if (cells.layer[c] != 0) continue;
-    for (auto e = static_cast<std::size_t>(fractions.offset[c]);
-         e < static_cast<std::size_t>(fractions.offset[c + 1]); ++e)
-      units[at(fractions.material[e])] += std::llround(kUnits * fractions.value[e]);
-  }
-  comm.sum(units);
-  std::vector<double> volume;
-  for (const std::int64_t u : units) volume.push_back(static_cast<double>(u) / kUnits);
-  return volume;
-}
-
 // Faces of owned cells towards other materials, per material, all ranks.
 std::vector<double> areas(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
                           std::size_t materials) {
@@ -155,7 +138,7 @@ class Classifier {
 
   // Thickening by the lines of the deck, after its automatic values were found. Answers the volumes that the
   // materials with automatic lines should have, below 0 for the others.
-  std::vector<double> run(const MeshVolumes& mesh_volumes) {
+  std::vector<double> run(const std::vector<double>& input_volume, const MeshVolumes& mesh_volumes) {
     std::vector<Thickening> lines;
     bool search = false;
     for (const MaterialValue& t : deck_.thicken_material) {
@@ -172,10 +155,10 @@ class Classifier {
     }
     std::vector<double> wanted(materials_.block_id.size(), -1);
     if (search) {
-      const std::vector<double> input = find(lines, mesh_volumes);
+      find(lines, input_volume, mesh_volumes);
       const double cell = cells_.cell_size.x * cells_.cell_size.y * cells_.cell_size.z;
       for (const Thickening& line : lines)
-        if (line.automatic) wanted[at(line.material)] = cell * input[at(line.material)];
+        if (line.automatic) wanted[at(line.material)] = cell * input_volume[at(line.material)];
     } else {
       thicken_and_filter(lines, log_);
     }
@@ -184,26 +167,24 @@ class Classifier {
   }
 
  private:
-  // Finds the automatic values, leaves the cells filtered with them, and answers the volumes of the input in
-  // cells.
-  std::vector<double> find(std::vector<Thickening>& lines, const MeshVolumes& mesh_volumes) {
-    const std::size_t count = materials_.block_id.size();
-    const std::vector<double> target = volumes(comm_, cells_, fractions_, count);
+  // Finds the automatic values and leaves the cells filtered with them.
+  void find(std::vector<Thickening>& lines, const std::vector<double>& input_volume,
+            const MeshVolumes& mesh_volumes) {
     const Fractions input = fractions_;
     const Log quiet(false);
-    const ThickeningResult found = find_thickening(lines, target, [&](const std::vector<Thickening>& trial) {
+    const auto run_trial = [&](const std::vector<Thickening>& trial) {
       fractions_ = input;
       assign_materials(cells_, fractions_, neighbours_);
       thicken_and_filter(trial, quiet);
       return ThickeningTrial{mesh_volumes(), areas(comm_, cells_, neighbours_, materials_.block_id.size())};
-    });
+    };
+    const ThickeningResult found = find_thickening(lines, input_volume, run_trial);
     for (const Thickening& line : lines)
       if (line.automatic)
         log_.line("  thicken_material = {} {:.6f}  (found by auto)", materials_.block_id[at(line.material)],
                   line.value);
     log_.line("  volumes reached within {:.3f} % in {} trials", 100 * found.error, found.trials);
     report_filter(deck_, report_, log_);
-    return target;
   }
 
   void thicken_and_filter(const std::vector<Thickening>& lines, const Log& log) {
@@ -243,8 +224,8 @@ class Classifier {
 
 std::vector<double> classify(const Comm& comm, const Deck& deck, HexMesh& cells, Fractions& fractions,
                              MaterialTable& materials, const FaceNeighbours& neighbours,
-                             std::optional<NodeHexes>& around, const MeshVolumes& mesh_volumes,
-                             const Log& log, Stages& stages) {
+                             std::optional<NodeHexes>& around, const std::vector<double>& input_volume,
+                             const MeshVolumes& mesh_volumes, const Log& log, Stages& stages) {
   log.line("(2/9) classifying materials...");
   assign_materials(cells, fractions, neighbours);
   const std::vector<std::int64_t> input_cells = count_cells(comm, cells, materials.block_id.size());
@@ -256,7 +237,8 @@ std::vector<double> classify(const Comm& comm, const Deck& deck, HexMesh& cells,
     return wanted;
   }
   around.emplace(cells);
-  wanted = Classifier(comm, deck, cells, fractions, materials, neighbours, *around, log).run(mesh_volumes);
+  wanted = Classifier(comm, deck, cells, fractions, materials, neighbours, *around, log)
+               .run(input_volume, mesh_volumes);
   report_lost(comm, cells, input_cells, materials, log);
   collectively(comm, "resolving non-manifolds", [&] {
     check(interfaces_are_manifold(cells, neighbours, *around), "a material interface is not manifold");

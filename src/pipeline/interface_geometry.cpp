@@ -6,7 +6,7 @@
 namespace sculpt {
 namespace {
 
-constexpr double kSliding = Geometry::kSliding;
+static_assert(kSliding == Geometry::kSliding, "the smoother reads the weights of the contour");
 
 // On a surface the normal deviation counts, on a curve all but the tangential one, at a vertex everything.
 Weight weight_of(const InterfaceCopy& copy) {

@@ -13,6 +13,7 @@
 #include "pipeline/console.hpp"
 #include "pipeline/interface_geometry.hpp"
 #include "pipeline/layers.hpp"
+#include "sculpt/base/fixed_point.hpp"
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/contour.hpp"
@@ -155,7 +156,6 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
 
 // Volume of each material, in cells, if the cells were meshed as they are now (stair) or contoured.
 std::vector<double> contoured_volumes(const Comm& comm, const Deck& deck, Overlay& overlay) {
-  constexpr double kUnits = 1073741824.0;  // 2^30: sums of integers do not depend on ranks
   HexMesh& cells = overlay.cells;
   const std::vector<Vec3> grid = cells.position;
   Stages untimed;
@@ -168,13 +168,12 @@ std::vector<double> contoured_volumes(const Comm& comm, const Deck& deck, Overla
     bool bent = false;
     for (const LocalId n : cells.hexes[at(c)])
       bent = bent || (!shape.faces.index_of.empty() && shape.faces.index_of[at(n)] != kNone);
-    units[at(cells.material[at(c)])] +=
-        std::llround(kUnits * (bent ? hex_volume(cells.corners(c)) / cell : 1.0));
+    units[at(cells.material[at(c)])] += to_units(bent ? hex_volume(cells.corners(c)) / cell : 1.0);
   }
   comm.sum(units);
   cells.position = grid;
   std::vector<double> volumes;
-  for (const std::int64_t u : units) volumes.push_back(static_cast<double>(u) / kUnits);
+  for (const std::int64_t u : units) volumes.push_back(from_units(u));
   return volumes;
 }
 
@@ -391,7 +390,7 @@ int run(const Comm& comm, const Deck& deck) {
   overlay.neighbours = face_neighbours(overlay.cells);
   const std::vector<double> wanted_volumes = classify(
       comm, deck, overlay.cells, overlay.fractions, overlay.materials, overlay.neighbours, overlay.around,
-      [&] { return contoured_volumes(comm, deck, overlay); }, log, stages);
+      input_volume, [&] { return contoured_volumes(comm, deck, overlay); }, log, stages);
   const MaterialTable materials = overlay.materials;
   input_volume.resize(materials.block_id.size(), 0);  // thicken_void may have added the void
   Meshed meshed = build_mesh(comm, deck, std::move(overlay), wanted_volumes, log, stages);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "quality/fixed_point.hpp"
+#include "sculpt/base/fixed_point.hpp"
 
 namespace sculpt {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "quality/fixed_point.hpp"
+#include "sculpt/base/fixed_point.hpp"
 #include "sculpt/quality/fidelity.hpp"
 
 namespace sculpt {

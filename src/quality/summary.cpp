@@ -5,7 +5,7 @@
 #include <limits>
 #include <tuple>
 
-#include "quality/fixed_point.hpp"
+#include "sculpt/base/fixed_point.hpp"
 #include "sculpt/geom/hex_quality.hpp"
 
 namespace sculpt {

@@ -84,7 +84,7 @@ class Phases {
       if (unfold()) break;
       if (attempt < kAttempts) relax_everything(attempt);
     }
-    without_folding([&] { lengthen(); });
+    if (set_.mark_short(kShort * size_) > 0) without_folding([&] { lengthen(); });
   }
 
   // The scaled Jacobian does not see an edge that is about to vanish: nodes of short edges take steps that

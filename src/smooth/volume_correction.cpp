@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "sculpt/base/fixed_point.hpp"
 #include "sculpt/geom/hex_quality.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr double kUnits = 1073741824.0;  // 2^30 per volume of a cell: sums of integers do not depend on ranks
 constexpr int kRounds = 4, kReturns = 10;
 constexpr double kCloseEnough = 2e-4;  // relative error of volume
 constexpr double kFarthest = 0.1;      // way of a node per round, in cells
@@ -109,7 +109,7 @@ class Corrector {
   void add_volume(LocalId h, std::vector<std::int64_t>& units) const {
     const LocalId place = place_of_[at(mesh_.material[at(h)])];
     if (mesh_.layer[at(h)] == 0 && place != kNone)
-      units[at(place)] += std::llround(kUnits * hex_volume(mesh_.corners(h)) / cell_);
+      units[at(place)] += to_units(hex_volume(mesh_.corners(h)) / cell_);
   }
 
   // In cells, of the materials with a wanted volume.
@@ -120,8 +120,7 @@ class Corrector {
     std::vector<double> missing(at(count_));
     for (std::size_t m = 0; m < wanted_.size(); ++m)
       if (place_of_[m] != kNone)
-        missing[at(place_of_[m])] =
-            wanted_[m] / cell_ - static_cast<double>(units[at(place_of_[m])]) / kUnits;
+        missing[at(place_of_[m])] = wanted_[m] / cell_ - from_units(units[at(place_of_[m])]);
     return missing;
   }
 
@@ -188,7 +187,7 @@ class Corrector {
       if (scale < 1e-6) continue;
       for (const Gradient& a : of[node])
         for (const Gradient& b : of[node])
-          units[at(a.place) * n + at(b.place)] += std::llround(kUnits * dot(a.by, b.by) / scale);
+          units[at(a.place) * n + at(b.place)] += to_units(dot(a.by, b.by) / scale);
     }
     comm().sum(units);
     std::vector<double> pressure(n, 0);
@@ -196,8 +195,8 @@ class Corrector {
       for (std::size_t a = 0; a < n; ++a) {
         double rest = missing[a];
         for (std::size_t b = 0; b < n; ++b)
-          if (b != a) rest -= static_cast<double>(units[a * n + b]) / kUnits * pressure[b];
-        const double diagonal = static_cast<double>(units[a * n + a]) / kUnits;
+          if (b != a) rest -= from_units(units[a * n + b]) * pressure[b];
+        const double diagonal = from_units(units[a * n + a]);
         pressure[a] = diagonal > 1e-6 ? rest / diagonal : 0;
       }
     return pressure;

@@ -20,6 +20,11 @@ Overlay overlay(const Comm& comm, const Case& input, int layers) {
 }
 Overlay overlay(const Case& input) { return overlay(Comm::self(), input); }
 
+HexMesh lattice(const Index3& cells) {
+  return overlay(voxels(cells, std::vector<std::int32_t>(static_cast<std::size_t>(whole(cells).size()), 0)))
+      .cells;
+}
+
 Overlay filtered(const Comm& comm, const Case& input, int layers) {
   Overlay o = overlay(comm, input, layers);
   (void)filter_materials(o.cells, o.fractions, face_neighbours(o.cells), NodeHexes(o.cells));

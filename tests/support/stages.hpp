@@ -26,6 +26,8 @@ struct Overlay {
 // The same after the filter.
 [[nodiscard]] Overlay filtered(const Comm& comm, const Case& input, int layers = 2);
 [[nodiscard]] Overlay filtered(const Case& input);
+// The mesh of a grid of one material, one rank alone.
+[[nodiscard]] HexMesh lattice(const Index3& cells);
 
 struct StageOptions {
   LayerPlan layers;

@@ -55,6 +55,7 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
 // deviation d as d.W.d: the normal direction of a surface, all but the tangent of a curve, everything at a
 // vertex; sliding is cheap.
 using Weight = std::array<double, 6>;
+inline constexpr double kSliding = 0.1;  // weight of a sliding deviation
 
 // Local. The weights of all interface nodes at their present positions (right at owned nodes).
 [[nodiscard]] std::vector<Weight> deviation_weights(const HexMesh& mesh, const Interfaces& faces);

@@ -8,6 +8,21 @@
 
 namespace sculpt {
 
+// Local. New indices of the entries of a list that are not dropped, ascending; kNone for the others.
+[[nodiscard]] std::vector<LocalId> indices_without(std::span<const std::uint8_t> drop);
+// Local. Takes the entries whose new index is kNone out of a list.
+template <class T>
+void compact(std::vector<T>& list, std::span<const LocalId> index) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < index.size(); ++i)
+    if (index[i] != kNone) list[kept++] = list[i];
+  list.resize(kept);
+}
+
+// Local. Takes the nodes that no hex uses out of the mesh (its exchange of nodes is left alone). Answers with
+// the new index of each old node.
+std::vector<LocalId> drop_unused_nodes(HexMesh& mesh);
+
 // Local. Every coordinate is scaled, then translated; the cell size is scaled.
 void transform(HexMesh& mesh, const Vec3& scale, const Vec3& translate);
 

@@ -9,11 +9,7 @@
 namespace sculpt {
 namespace {
 
-HexMesh lattice(const Index3& cells) {
-  return test::overlay(
-             test::voxels(cells, std::vector<std::int32_t>(static_cast<std::size_t>(whole(cells).size()), 0)))
-      .cells;
-}
+using test::lattice;
 
 TEST(FaceNeighbours, OfALatticeByHand) {
   const FaceNeighbours n = face_neighbours(lattice({3, 2, 2}));

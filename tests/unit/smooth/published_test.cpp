@@ -10,11 +10,7 @@
 namespace sculpt {
 namespace {
 
-HexMesh lattice(const Index3& cells) {
-  return test::overlay(
-             test::voxels(cells, std::vector<std::int32_t>(static_cast<std::size_t>(whole(cells).size()), 0)))
-      .cells;
-}
+using test::lattice;
 constexpr LocalId kMiddle = 1 + 3 * (1 + 3 * 1);  // of a lattice of 2 x 2 x 2 cells
 
 NodeObjective objective_at_middle(const HexMesh& mesh, bool size_aware = false, double scale = 1) {

@@ -29,6 +29,7 @@ struct HexMesh {
   std::vector<std::uint8_t> box_sides;   // sides of the domain box that hold the node
   std::vector<std::uint8_t>
       colour;  // nodes of one colour share no hex unless they stem from one overlay node
+  std::vector<std::uint8_t> level;
 
   // Hexes.
   std::vector<Hex> hexes;               // Exodus corner order, local node indices

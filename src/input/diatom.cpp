@@ -37,6 +37,12 @@ class DiatomSource final : public MaterialSource {
     return data;
   }
 
+  [[nodiscard]] bool is_data() const override { return false; }
+
+  [[nodiscard]] std::unique_ptr<MaterialField> field(Fractions, const IndexBox&) const override {
+    return shape_field(shapes_, outside_);
+  }
+
   [[nodiscard]] ExactSurface exact_surface() const override { return surfaces_of(shapes_, grid_); }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace sculpt {
 namespace {
@@ -21,11 +22,8 @@ class CellMeter {
   // Appends the fractions of a cell to the list. `candidates`: shapes that may reach it, in the order of
   // insertion.
   void measure(const Box& cell, std::span<const std::int32_t> candidates, Fractions& fractions) {
-    select(cell, candidates);
-    if (reaching_.empty()) {
-      fractions.add(outside_, 1.0);
-    } else if (filled_ && of_one_material()) {
-      fractions.add(material(0), 1.0);
+    if (const auto sole = sole_material(cell, candidates)) {
+      fractions.add(*sole, 1.0);
     } else {
       sample(cell);
       append(cell, fractions);
@@ -33,14 +31,21 @@ class CellMeter {
     fractions.end_cell();
   }
 
+  // The material that fills the cell; nothing when only a measurement could tell.
+  [[nodiscard]] std::optional<std::int32_t> sole_material(const Box& cell,
+                                                          std::span<const std::int32_t> candidates) {
+    select(cell, candidates);
+    if (reaching_.empty()) return outside_;
+    const std::int32_t first = material(0);
+    if (!filled_ && first != outside_) return std::nullopt;
+    for (std::size_t s = 1; s < reaching_.size(); ++s)
+      if (material(s) != first) return std::nullopt;
+    return first;
+  }
+
  private:
   [[nodiscard]] const Shape& shape(std::size_t s) const { return *shapes_[reaching_[s]].shape; }
   [[nodiscard]] std::int32_t material(std::size_t s) const { return shapes_[reaching_[s]].material; }
-  [[nodiscard]] bool of_one_material() const {
-    for (std::size_t s = 1; s < reaching_.size(); ++s)
-      if (material(s) != material(0)) return false;
-    return true;
-  }
 
   // The shapes that count: those that reach the cell, up to the first that fills it.
   void select(const Box& cell, std::span<const std::int32_t> candidates) {
@@ -210,7 +215,30 @@ Box cell_box(const Grid& grid, const Index3& cell) {
   return box;
 }
 
+class ShapeField final : public MaterialField {
+ public:
+  ShapeField(std::shared_ptr<const std::vector<InsertedShape>> shapes, std::int32_t outside)
+      : shapes_(std::move(shapes)), meter_(*shapes_, outside), all_(shapes_->size()) {
+    std::iota(all_.begin(), all_.end(), 0);
+  }
+
+  void measure(const Box& box, Fractions& out) override { meter_.measure(box, all_, out); }
+  [[nodiscard]] std::optional<std::int32_t> sole_material(const Box& box) override {
+    return meter_.sole_material(box, all_);
+  }
+
+ private:
+  std::shared_ptr<const std::vector<InsertedShape>> shapes_;
+  CellMeter meter_;
+  std::vector<std::int32_t> all_;
+};
+
 }  // namespace
+
+std::unique_ptr<MaterialField> shape_field(std::shared_ptr<const std::vector<InsertedShape>> shapes,
+                                           std::int32_t outside) {
+  return std::make_unique<ShapeField>(std::move(shapes), outside);
+}
 
 Fractions shape_fractions(const Grid& grid, const IndexBox& box, std::span<const InsertedShape> shapes,
                           std::int32_t outside) {

@@ -3,6 +3,7 @@
 // wins.
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "sculpt/geom/shape.hpp"
 #include "sculpt/grid/grid.hpp"
@@ -20,5 +21,9 @@ struct InsertedShape {
 // not depend on the box.
 [[nodiscard]] Fractions shape_fractions(const Grid& grid, const IndexBox& box,
                                         std::span<const InsertedShape> shapes, std::int32_t outside);
+
+// The field of MaterialSource for shapes. A cell of a grid gets bitwise what shape_fractions() gives it.
+[[nodiscard]] std::unique_ptr<MaterialField> shape_field(
+    std::shared_ptr<const std::vector<InsertedShape>> shapes, std::int32_t outside);
 
 }  // namespace sculpt

@@ -341,6 +341,14 @@ LeafMesh leaf_mesh(const Comm& comm, const Grid& grid, const Forest& forest, con
   return Builder(comm, grid, forest, parts, layers).run();
 }
 
+std::int64_t hexes_in(const Forest& forest, const Index3& base_block) {
+  std::int64_t count = 0;
+  forest.for_each_leaf(base_block, [&](int level, const Index3& block) {
+    count += static_cast<std::int64_t>(transition(forest.pattern(level, block), forest.ends(level, block)).hex.size());
+  });
+  return count;
+}
+
 Vec3 grid_point(const Grid& grid, int level, const Index3& corner) {
   Vec3 x;
   for (std::size_t d = 0; d < 3; ++d)

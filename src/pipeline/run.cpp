@@ -13,12 +13,12 @@
 #include "pipeline/console.hpp"
 #include "pipeline/interface_geometry.hpp"
 #include "pipeline/layers.hpp"
+#include "pipeline/overlay.hpp"
 #include "sculpt/base/fixed_point.hpp"
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/contour.hpp"
 #include "sculpt/contour/interface_smoothing.hpp"
-#include "sculpt/distribute/cartesian.hpp"
 #include "sculpt/exo/rank_mesh.hpp"
 #include "sculpt/input/material_source.hpp"
 #include "sculpt/launch/launch.hpp"
@@ -35,62 +35,6 @@
 
 namespace sculpt {
 namespace {
-
-// The overlay mesh with its materials, and its adjacency for the stages that work on it.
-struct Overlay {
-  HexMesh cells;
-  Fractions fractions;
-  MaterialTable materials;
-  FaceNeighbours neighbours;
-  std::optional<NodeHexes> around;
-  Index3 grid{0, 0, 0};  // cells per axis, all ranks
-  bool pure = true;      // on all ranks every cell holds one material only
-  ExactSurface exact;    // what the input knows of its surfaces
-};
-
-// The source's grid with the expansion layers around it.
-Grid overlay_grid(const Deck& deck, const Grid& source) {
-  if (deck.micro_expand == 0) return source;
-  const Vec3 h = source.cell_size();
-  Index3 cells = source.cells;
-  Vec3 origin;
-  for (std::size_t d = 0; d < 3; ++d) {
-    cells[d] += 2 * deck.micro_expand;
-    origin[d] = source.planes[d].front() - deck.micro_expand * h[d];
-  }
-  return uniform_grid(cells, origin, h);
-}
-
-Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages) {
-  const auto source = open_source(comm, deck, log);
-  const Grid grid = overlay_grid(deck, source->grid());
-  const CartesianParts parts = cut_grid(grid.cells, comm.size(), {deck.iproc, deck.jproc, deck.kproc});
-  print_decomposition(log, parts);
-  const int layers = layer_plan(deck).ghost_layers();
-
-  std::vector<IndexBox> wanted;
-  for (int r = 0; r < comm.size(); ++r)
-    wanted.push_back(source_of(parts.ghosted(r, layers), deck.micro_expand, source->grid().cells));
-  MaterialData data = source->read(comm, wanted);
-  stages.end("read input");
-
-  Overlay overlay{lattice_mesh(comm, grid, parts, layers),
-                  std::move(data.fractions),
-                  std::move(data.table),
-                  {},
-                  {},
-                  grid.cells,
-                  true,
-                  source->exact_surface()};
-  const bool pure = overlay.fractions.material.size() == static_cast<std::size_t>(overlay.fractions.cells());
-  overlay.pure = comm.min(std::int64_t{pure}) == 1;
-  if (deck.micro_expand > 0)
-    overlay.fractions =
-        expand_fractions(overlay.fractions, wanted[static_cast<std::size_t>(comm.rank())],
-                         parts.ghosted(comm.rank(), layers), deck.micro_expand, source->grid().cells);
-  stages.end("distribute");
-  return overlay;
-}
 
 // 1 for every cell that is no part of the mesh.
 std::vector<std::uint8_t> unmeshed_cells(const Deck& deck, const Overlay& overlay) {

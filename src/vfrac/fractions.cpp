@@ -37,6 +37,47 @@ Fractions expand_fractions(const Fractions& data, const IndexBox& source_box, co
   return grown;
 }
 
+Fractions with_ghosts(const HexMesh& cells, const Fractions& owned) {
+  using G = GhostExchange;
+  std::vector<std::size_t> place(cells.hexes.size());  // of an owned cell in its list, of a ghost in `received`
+  std::size_t next = 0;
+  for (std::size_t c = 0; c < place.size(); ++c)
+    if (cells.layer[c] == 0) place[c] = next++;
+  Fractions received;
+  cells.hex_exchange.send_records(
+      [&](LocalId c, std::vector<char>& bytes) {
+        const std::int64_t first = owned.offset[place[at(c)]], last = owned.offset[place[at(c)] + 1];
+        G::append(bytes, static_cast<std::int32_t>(last - first));
+        for (auto e = static_cast<std::size_t>(first); e < static_cast<std::size_t>(last); ++e) {
+          G::append(bytes, owned.material[e]);
+          G::append(bytes, owned.value[e]);
+        }
+      },
+      [&](LocalId ghost, const char* from) {
+        std::int32_t count;
+        G::take(from, count);
+        for (std::int32_t e = 0; e < count; ++e) {
+          std::int32_t material;
+          double value;
+          G::take(from, material);
+          G::take(from, value);
+          received.add(material, value);
+        }
+        place[at(ghost)] = static_cast<std::size_t>(received.cells());
+        received.end_cell();
+        return from;
+      });
+  Fractions all;
+  all.reserve(place.size(), owned.material.size() + received.material.size());
+  for (std::size_t c = 0; c < place.size(); ++c) {
+    const Fractions& from = cells.layer[c] == 0 ? owned : received;
+    for (auto e = static_cast<std::size_t>(from.offset[place[c]]); e < static_cast<std::size_t>(from.offset[place[c] + 1]); ++e)
+      all.add(from.material[e], from.value[e]);
+    all.end_cell();
+  }
+  return all;
+}
+
 void follow_assignment(Fractions& fractions, std::span<const std::int32_t> material) {
   Fractions followed;
   followed.reserve(material.size(), fractions.material.size());

@@ -4,22 +4,12 @@
 #include <vector>
 
 #include "sculpt/adapt/forest.hpp"
+#include "sculpt/distribute/block_parts.hpp"
 #include "sculpt/grid/grid.hpp"
 #include "sculpt/mesh/hex_mesh.hpp"
 #include "sculpt/par/comm.hpp"
 
 namespace sculpt {
-
-// Who owns which blocks of level 0. The same on every rank.
-struct BlockParts {
-  Index3 blocks{0, 0, 0};
-  std::vector<IndexBox> box;        // per rank; empty where nothing is owned
-  std::vector<std::int32_t> owner;  // per block, x fastest
-
-  [[nodiscard]] std::int32_t owner_of(const Index3& block) const {
-    return owner[static_cast<std::size_t>(whole(blocks).position(block))];
-  }
-};
 
 // A block of cells of one level. A block beside refined ones is in transition: its hexes are not cubes.
 struct Leaf {
@@ -39,6 +29,9 @@ struct LeafMesh {
 // ids or local indices would overflow.
 [[nodiscard]] LeafMesh leaf_mesh(const Comm& comm, const Grid& grid, const Forest& forest, const BlockParts& parts,
                                  int layers);
+
+// Local. How many hexes a block of level 0 of a closed forest becomes.
+[[nodiscard]] std::int64_t hexes_in(const Forest& forest, const Index3& base_block);
 
 // Corners of a cell of a level, between the planes of the grid.
 [[nodiscard]] Vec3 grid_point(const Grid& grid, int level, const Index3& corner);

@@ -4,8 +4,8 @@
 #include <bit>
 #include <map>
 
-#include "pillow/edge_walk.hpp"
 #include "sculpt/mesh/adjacency.hpp"
+#include "sculpt/mesh/edge_walk.hpp"
 #include "sculpt/mesh/edit.hpp"
 
 namespace sculpt {

@@ -20,6 +20,7 @@ std::vector<LocalId> drop_unused_nodes(HexMesh& mesh) {
   compact(mesh.node_owner, node);
   compact(mesh.box_sides, node);
   compact(mesh.colour, node);
+  if (!mesh.level.empty()) compact(mesh.level, node);
   for (Hex& h : mesh.hexes)
     for (LocalId& n : h) n = node[at(n)];
   return node;

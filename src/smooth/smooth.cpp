@@ -44,7 +44,7 @@ class Phases {
         options_(options),
         log_(log),
         set_(mesh),
-        step_(mesh, set_.around(), geometry_),
+        step_(mesh, set_.around(), geometry_, options.deviation_by_level),
         farthest_(options.max_deviation),
         floor_(options.target) {
     const Vec3& h = mesh.cell_size;
@@ -62,8 +62,9 @@ class Phases {
       optimise_as_published(set_, geometry_, options_, log_);
     else
       optimise();
-    if (options_.hold_on_geometry) without_folding([&] { fit(kFitted * size_); });
-    if (limited()) without_folding([&] { fit(farthest_); });
+    if (options_.hold_on_geometry)
+      without_folding([&] { fit([&](LocalId n) { return kFitted * size_at(n); }); });
+    if (limited()) without_folding([&] { fit([&](LocalId n) { return step_.limit(n, farthest_); }); });
     if (options_.guarantee_rounds > 0) guarantee();
     if (options_.hold_on_geometry || limited()) report_deviation();
   }
@@ -74,6 +75,7 @@ class Phases {
   }
 
   [[nodiscard]] bool limited() const { return std::isfinite(options_.max_deviation); }
+  [[nodiscard]] double size_at(LocalId n) const { return size_ * mesh_.unit(n); }
   [[nodiscard]] bool on_interface(LocalId n) const { return geometry_.index[at(n)] != kNone; }
 
   void optimise() {
@@ -324,14 +326,14 @@ class Phases {
     for (LocalId n = 0; n < mesh_.nodes(); ++n) {
       const Vec3& p = mesh_.position[at(n)];
       if (on_interface(n) && set_.owned(n) && !(p == before[at(n)]))
-        farthest = std::max(farthest, norm(p - geometry_.target[at(geometry_.index[at(n)])]) / size_);
+        farthest = std::max(farthest, norm(p - geometry_.target[at(geometry_.index[at(n)])]) / size_at(n));
     }
     return set_.comm().max(farthest);
   }
 
-  // Interface nodes farther than `tolerance` from the geometry go back to it as far as the floor allows;
+  // Interface nodes farther than their tolerance from the geometry go back to it as far as the floor allows;
   // between the rounds the nodes around them make room.
-  void fit(double tolerance) {
+  void fit(const std::function<double(LocalId)>& tolerance) {
     step_.set_scale(isotropic_);
     StepRules rules = raising_rules(options_.fidelity);
     StepRules room = rules;
@@ -347,11 +349,12 @@ class Phases {
     }
   }
   // Marks the interface nodes, ghosts included, that are farther than this from the geometry.
-  [[nodiscard]] std::vector<std::uint8_t> off_the_geometry(double tolerance) const {
+  [[nodiscard]] std::vector<std::uint8_t> off_the_geometry(
+      const std::function<double(LocalId)>& tolerance) const {
     std::vector<std::uint8_t> off(mesh_.position.size(), 0);
     for (LocalId n = 0; n < mesh_.nodes(); ++n)
       off[at(n)] = on_interface(n) && set_.owned(n) &&
-                   norm(step_.towards_geometry(n, mesh_.position[at(n)])) > tolerance;
+                   norm(step_.towards_geometry(n, mesh_.position[at(n)])) > tolerance(n);
     mesh_.node_exchange.copy_to_ghosts(off);
     return off;
   }
@@ -367,13 +370,14 @@ class Phases {
     for (LocalId n = 0; n < mesh_.nodes(); ++n) {
       if (!on_interface(n) || !set_.owned(n)) continue;
       const double distance = norm(step_.towards_geometry(n, mesh_.position[at(n)]));
-      farthest = std::max(farthest, distance);
-      beyond += distance > options_.max_deviation;
+      farthest = std::max(farthest, distance / size_at(n));
+      beyond += distance > step_.limit(n, options_.max_deviation);
     }
-    log_.line("Interface nodes are at most {:f} cells from the geometry", set_.comm().max(farthest) / size_);
+    log_.line("Interface nodes are at most {:f} cells from the geometry", set_.comm().max(farthest));
     beyond = set_.comm().sum(beyond);
     if (beyond > 0)
-      log_.line("WARNING: {} interface nodes are farther from it than {:g}", beyond, options_.max_deviation);
+      log_.line("WARNING: {} interface nodes are farther from it than {:g}{}", beyond, options_.max_deviation,
+                options_.deviation_by_level && !mesh_.level.empty() ? " at level 0" : "");
   }
 
   // The Jacobian can fail inside a hex whose corners are fine: more shape for the nodes of such hexes. Tells
@@ -418,7 +422,7 @@ class Phases {
   ActiveSet set_;
   NodeStep step_;
   Vec3 per_axis_, isotropic_;
-  double size_ = 1;           // of a cell
+  double size_ = 1;           // of a cell at level 0
   double farthest_;           // limit of deviation of the present phase
   double floor_;              // quality that no step may fall below
   bool never_folds_ = false;  // no step may fold a hex inside

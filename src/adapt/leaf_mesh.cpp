@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "adapt/template_store.hpp"
-#include "sculpt/mesh/adjacency.hpp"
+#include "sculpt/mesh/colour.hpp"
 #include "sculpt/mesh/edit.hpp"
 #include "sculpt/par/numbering.hpp"
 
@@ -15,7 +15,6 @@ namespace sculpt {
 namespace {
 
 constexpr std::int64_t kCodes = 256;      // of the nodes at one position: itself, or the n-th inside the block there
-constexpr std::uint8_t kNoColour = 255;   // of a node that is not among cubes of one level only
 constexpr std::uint8_t kUnset = 255;      // level of a node that no hex was seen at yet
 
 // Where a coordinate in cells of the grid lies, between its planes.
@@ -305,21 +304,8 @@ class Builder {
     // The outermost nodes do not see all their hexes.
     m.node_exchange.copy_to_ghosts(m.level);
     m.node_exchange.copy_to_ghosts(m.colour);
-    { // COLOUR
-      const NodeHexes around(m);
-      m.colours = 8;
-      for (LocalId n = 0; n < m.nodes(); ++n) {
-        if (m.colour[at(n)] != kNoColour) continue;
-        std::vector<bool> used(255, false);
-        for (const std::int32_t item : around[n])
-          for (const LocalId o : m.hexes[at(item / 8)])
-            if (o != n && m.colour[at(o)] != kNoColour) used[m.colour[at(o)]] = true;
-        std::uint8_t c = 8;
-        while (used[c]) ++c;
-        m.colour[at(n)] = c;
-        m.colours = std::max(m.colours, c + 1);
-      }
-    } // END
+    const std::vector<std::uint8_t> preset = m.colour;
+    colour_nodes(m, preset);
   }
 
   const Comm& comm_;

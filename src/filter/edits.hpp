@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "sculpt/base/lot.hpp"
 #include "sculpt/filter/filter.hpp"
 #include "sculpt/mesh/adjacency.hpp"
 #include "sculpt/mesh/hex_mesh.hpp"
@@ -40,8 +41,8 @@ class Edits {
   // Loss of fraction when a cell goes to a material, and a price for having changed before that grows as 2^n
   // - 1 (the report, section 2.7.1: changes must stick).
   [[nodiscard]] double loss(LocalId cell, std::int32_t to) const;
-  // Without any order that spreads through the grid: ties between cells are broken by this, then by id.
-  [[nodiscard]] std::uint64_t lot(LocalId cell) const;
+  // Ties between cells are broken by this, then by id.
+  [[nodiscard]] std::uint64_t lot(LocalId cell) const { return lot_of(mesh.hex_id[at(cell)]); }
 
   // Price of taking a cell from a rare material: 1 / its cells in the input of the filter (0 for one that had
   // none).

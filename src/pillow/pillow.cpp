@@ -4,8 +4,8 @@
 #include <bit>
 #include <map>
 
-#include "pillow/edge_walk.hpp"
 #include "sculpt/mesh/adjacency.hpp"
+#include "sculpt/mesh/edge_walk.hpp"
 #include "sculpt/mesh/edit.hpp"
 
 namespace sculpt {
@@ -87,6 +87,7 @@ class Pillower {
     out.node_owner.push_back(mesh_.node_owner[at(from)]);
     out.box_sides.push_back(sides);
     out.colour.push_back(mesh_.colour[at(from)]);
+    if (!mesh_.level.empty()) out.level.push_back(mesh_.level[at(from)]);
     result_.source.push_back(from);
     result_.copied.push_back(copy != 0);
   }

@@ -23,7 +23,9 @@ constexpr double kLengthThreshold = 0.25;    // of the types that measure distan
 bool coarsens(const Deck& deck) { return deck.adapt_type == kAdaptCoarsen || deck.adapt_type == kAdaptResample; }
 
 const char* type_name(const Deck& deck) {
-  return find_value(*find_option("adapt_type"), deck.adapt_type)->name.data();
+  for (const EnumValue& value : find_option("adapt_type")->values)
+    if (value.number == deck.adapt_type) return value.name.data();
+  return "";
 }
 
 // The grid whose cells hold 2^levels cells of the data per axis.

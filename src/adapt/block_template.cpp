@@ -146,7 +146,9 @@ constexpr Planes plane(std::size_t axis, std::size_t which) { return static_cast
 
 class BlockCutter {
  public:
-  BlockCutter(BlockPattern pattern, unsigned ends) : pattern_(pattern), ends_(ends) {
+  BlockCutter(BlockPattern pattern, unsigned ends) : pattern_(pattern) {
+    for (std::size_t d = 0; d < 3; ++d)
+      if (ends >> d & 1) outer_ |= plane(d, 1);
     for (int k = 0; k <= 2; ++k)
       for (int j = 0; j <= 2; ++j)
         for (int i = 0; i <= 2; ++i) {
@@ -177,6 +179,7 @@ class BlockCutter {
   [[nodiscard]] const std::vector<Hex>& hexes() const { return hexes_; }
   [[nodiscard]] const std::vector<std::uint8_t>& halves() const { return half_; }
   [[nodiscard]] const std::vector<Vec3>& positions() const { return position_; }
+  [[nodiscard]] std::uint8_t double_sides() const { return double_sides_; }
   [[nodiscard]] bool on_surface(LocalId n) const { return (planes_[at(n)] & kSurface) != 0; }
   [[nodiscard]] bool on_middle(LocalId n, std::size_t axis) const { return (planes_[at(n)] & plane(axis, 1)) != 0; }
 
@@ -240,8 +243,7 @@ class BlockCutter {
       }
       if (changed) continue;
       for (const auto& [node, merges] : merging) {
-        if (on_surface(node)) return false;
-        if (edges_at(quads, node) - merges >= 3) continue;
+        if (on_surface(node) || edges_at(quads, node) - merges >= 3) continue;
         if (!add(node)) return false;
         changed = true;
       }
@@ -313,7 +315,8 @@ class BlockCutter {
     return known->second;
   }
 
-  // Merged nodes lie in the middle of their members. Nodes of the surface must not be merged.
+  // Merged nodes lie in the middle of their members. A node that others share, or on the side of the domain, stays where it
+  // is, so no two of them can be merged.
   bool merge(const std::vector<std::pair<LocalId, LocalId>>& merges) {
     std::vector<LocalId> group(position_.size());
     for (std::size_t n = 0; n < group.size(); ++n) group[n] = static_cast<LocalId>(n);
@@ -327,25 +330,28 @@ class BlockCutter {
       if (root(static_cast<LocalId>(n)) != static_cast<LocalId>(n) || group[n] != static_cast<LocalId>(n))
         members[root(static_cast<LocalId>(n))].push_back(static_cast<LocalId>(n));
     for (auto& [to, from] : members) {
-      Vec3 sum = position_[at(to)];
+      Vec3 sum;
+      Planes on = 0;
+      std::optional<Vec3> kept;
+      from.push_back(to);
       for (const LocalId n : from) {
         sum += position_[at(n)];
-        planes_[at(to)] |= planes_[at(n)];
+        on |= planes_[at(n)];
+        if (!(planes_[at(n)] & outer_)) continue;
+        if (kept) return false;
+        kept = position_[at(n)];
       }
-      if (planes_[at(to)] & kSurface) return false;
-      position_[at(to)] = (1.0 / static_cast<double>(from.size() + 1)) * sum;
+      planes_[at(to)] = on;
+      position_[at(to)] = kept ? *kept : (1.0 / static_cast<double>(from.size())) * sum;
     }
     for (Hex& hex : hexes_)
       for (LocalId& n : hex) n = root(n);
     return true;
   }
 
-  // No two hexes share two faces, no hex has two faces on one of the planes that others share or that bound the domain,
-  // and no corner of a hex coincides with another.
-  [[nodiscard]] bool no_doublets() const {
-    Planes outer = kSurface;
-    for (std::size_t d = 0; d < 3; ++d)
-      if (ends_ >> d & 1) outer |= plane(d, 1);
+  // No two hexes share two faces, no hex has two faces on the side of the domain, and no
+  // corner of a hex coincides with another.
+  [[nodiscard]] bool no_doublets() {
     std::map<Quad, std::vector<std::size_t>> owners;
     for (std::size_t h = 0; h < hexes_.size(); ++h) {
       Hex sorted = hexes_[h];
@@ -360,7 +366,10 @@ class BlockCutter {
           common &= planes_[at(quad[v])];
         }
         for (std::size_t bit = 0; bit < 9; ++bit)
-          if (common >> bit & 1 && outer >> bit & 1 && ++on[bit] > 1) return false;
+          if (common >> bit & 1 && outer_ >> bit & 1 && ++on[bit] > 1) {
+            if (bit % 3 == 1) return false;
+            double_sides_ |= static_cast<std::uint8_t>(1U << (bit / 3 * 2 + (bit % 3) / 2));
+          }
         std::sort(quad.begin(), quad.end());
         owners[quad].push_back(h);
       }
@@ -374,7 +383,8 @@ class BlockCutter {
   }
 
   BlockPattern pattern_;
-  unsigned ends_;
+  std::uint8_t double_sides_ = 0;
+  Planes outer_ = kSurface;  // planes that other blocks share or that bound the domain
   std::vector<Vec3> position_;
   std::vector<Planes> planes_;
   std::vector<std::uint8_t> marked_;
@@ -389,6 +399,7 @@ std::unique_ptr<const BlockTemplate> block_template(BlockPattern pattern, unsign
   BlockCutter cutter(pattern, ends);
   if (!cutter.run()) return nullptr;
   auto result = std::make_unique<BlockTemplate>();
+  result->double_sides = cutter.double_sides();
   std::vector<Hex> hexes;
   for (std::size_t h = 0; h < cutter.hexes().size(); ++h)
     if ((cutter.halves()[h] & ends) == 0) hexes.push_back(cutter.hexes()[h]);

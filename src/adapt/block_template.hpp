@@ -26,6 +26,9 @@ struct BlockTemplate {
   std::vector<Vec3> node;
   std::size_t surface = 0;
   std::vector<std::array<std::uint16_t, 8>> hex;  // Exodus corner order
+  // Sides (bit order of the faces of a pattern) where a hex has two faces. The block beyond must not have any there, or two
+  // hexes would share two faces; nor may the domain end there.
+  std::uint8_t double_sides = 0;
 };
 
 // The hexes of a block with these refined neighbours; null where no valid transition exists, so that the block must be

@@ -109,13 +109,29 @@ void Forest::repair(int level, std::vector<Index3> changed, std::vector<Index3>&
       }
     std::sort(beside.begin(), beside.end());
     beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
-    std::erase_if(beside, [&](const Index3& b) {
-      return transition_exists(pattern(level, b), ends(level, b));
-    });
+    std::erase_if(beside, [&](const Index3& b) { return has_transition(level, b); });
     changed.clear();
     for (const Index3& b : beside) add(level, b, changed);
     added.insert(added.end(), changed.begin(), changed.end());
   }
+}
+
+// Whether a leaf can be cut as its neighbours ask, and the blocks beside it as well.
+bool Forest::has_transition(int level, const Index3& block) const {
+  const std::uint32_t p = pattern(level, block);
+  if (!transition_exists(p, ends(level, block))) return false;
+  const std::uint8_t doubles = transition(p, ends(level, block)).double_sides;
+  for (std::size_t side = 0; doubles != 0 && side < 6; ++side) {
+    if (!(doubles >> side & 1)) continue;
+    Index3 other = sum(block, kBlockOffset[side]);
+    if (!wrap(level, other)) return false;  // a side of the domain
+    if (refined(level, other)) continue;
+    const std::uint32_t beyond = pattern(level, other);
+    if (transition_exists(beyond, ends(level, other)) &&
+        transition(beyond, ends(level, other)).double_sides >> (side ^ 1) & 1)
+      return false;
+  }
+  return true;
 }
 
 std::int64_t Forest::close() {

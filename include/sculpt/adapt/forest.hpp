@@ -59,6 +59,7 @@ class Forest {
     return static_cast<std::size_t>(b[0] + l.blocks[0] * (b[1] + l.blocks[1] * b[2]));
   }
   [[nodiscard]] std::vector<Index3> list(int level) const;
+  [[nodiscard]] bool has_transition(int level, const Index3& block) const;
   bool add(int level, Index3 block, std::vector<Index3>& added);
   void nest(int level, const std::vector<Index3>& blocks, std::vector<Index3>& added);
   void repair(int level, std::vector<Index3> changed, std::vector<Index3>& added);

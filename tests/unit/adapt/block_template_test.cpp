@@ -99,11 +99,11 @@ TEST(BlockTemplate, EveryPatternIsAValidSubdivisionOrNone) {
           faces += std::all_of(face.begin(), face.end(), [&](int c) {
             return t->node[hex[static_cast<std::size_t>(c)]][side / 2] == (side % 2 == 0 ? 0 : 2);
           });
-        ASSERT_LE(faces, 1) << p;
+        if (faces > 1) ASSERT_TRUE(t->double_sides >> side & 1) << p;
       }
   }
   EXPECT_EQ(valid + none, 6210);
-  EXPECT_EQ(none, 118);
+  EXPECT_EQ(none, 54);
 }
 
 // What lies beyond the middle plane does not matter where the block ends there.

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "sculpt/mesh/adjacency.hpp"
 #include "support/cases.hpp"
 #include "support/mesh_checks.hpp"
 
@@ -17,6 +20,18 @@ BlockParts alone(const Forest& forest) {
 
 Grid unit_grid(const Index3& cells) { return uniform_grid(cells, {0, 0, 0}, {1, 1, 1}); }
 
+// Pairs of hexes that share two faces or more.
+int doublets(const HexMesh& mesh) {
+  int count = 0;
+  const FaceNeighbours neighbours = face_neighbours(mesh);
+  for (LocalId h = 0; h < mesh.size(); ++h) {
+    std::array<LocalId, 6> around = neighbours[at(h)];
+    std::sort(around.begin(), around.end());
+    for (std::size_t f = 1; f < 6; ++f) count += around[f] != kNone && around[f] == around[f - 1];
+  }
+  return count;
+}
+
 // All that must hold of the mesh of any closed forest; empty when it does.
 std::string problem(const Forest& forest) {
   const Grid grid = unit_grid(forest.cells(0));
@@ -26,6 +41,7 @@ std::string problem(const Forest& forest) {
     if (!p.empty()) return p;
   const double excess = test::volume(made.cells) - test::volume(grid);
   if (std::fabs(excess) > 1e-10 * test::volume(grid)) return "volume off by " + std::to_string(excess);
+  if (doublets(made.cells) > 0) return "two hexes share two faces";
   for (LocalId h = 0; h < made.cells.size(); ++h)
     for (int side = 0; side < 6; ++side) {
       int faces = 0;

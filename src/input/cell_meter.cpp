@@ -19,12 +19,13 @@ void CellMeter::measure(const Box& cell, std::span<const std::int32_t> candidate
     fractions.add(*sole, 1.0);
   } else {
     covered_.assign(reaching_.size(), 0.0);
-    if (strongly_curved(cell)) {
-      sample(cell, kMostLines, 1);
-    } else {
+    const std::size_t axis = shape(0).steepest_axis(0.5 * (cell.lo + cell.hi));
+    if (is_gentle(cell, axis)) {
       // The error of the midpoint rule falls with the square of the number of lines: two numbers cancel it.
-      sample(cell, 16, 4.0 / 3);
-      sample(cell, 8, -1.0 / 3);
+      sample(cell, axis, 16, 4.0 / 3);
+      sample(cell, axis, 8, -1.0 / 3);
+    } else {
+      sample(cell, axis, kMostLines, 1);
     }
     append(fractions);
   }
@@ -55,20 +56,22 @@ void CellMeter::select(const Box& cell, std::span<const std::int32_t> candidates
   }
 }
 
-// A surface may turn within the cell by so much that few lines miss parts of it.
-bool CellMeter::strongly_curved(const Box& cell) const {
+// Few lines suffice where the surfaces turn little within the cell and all of them cross the lines steeply. A
+// shape that fills the cell has no surface there.
+bool CellMeter::is_gentle(const Box& cell, std::size_t axis) const {
   constexpr double kCells = 4;  // across a shape
-  for (std::size_t s = 0; s < reaching_.size(); ++s) {
+  const Vec3 centre = 0.5 * (cell.lo + cell.hi);
+  for (std::size_t s = 0; s + (filled_ ? 1 : 0) < reaching_.size(); ++s) {
+    if (shape(s).steepest_axis(centre) != axis) return false;
     const Box bounds = shape(s).bounds();
     for (std::size_t d = 0; d < 3; ++d)
-      if (bounds.hi[d] - bounds.lo[d] < kCells * (cell.hi[d] - cell.lo[d])) return true;
+      if (bounds.hi[d] - bounds.lo[d] < kCells * (cell.hi[d] - cell.lo[d])) return false;
   }
-  return false;
+  return true;
 }
 
-// Adds the weighted shares of the cell that the shapes get of lines x lines lines.
-void CellMeter::sample(const Box& cell, std::size_t lines, double weight) {
-  const std::size_t axis = shape(0).steepest_axis(0.5 * (cell.lo + cell.hi));
+// Adds the weighted shares of the cell that the shapes get of lines x lines lines along the axis.
+void CellMeter::sample(const Box& cell, std::size_t axis, std::size_t lines, double weight) {
   const std::size_t axis_u = (axis + 1) % 3, axis_v = (axis + 2) % 3;
   const double from = cell.lo[axis], to = cell.hi[axis];
   Row v;

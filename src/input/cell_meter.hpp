@@ -40,8 +40,8 @@ class CellMeter {
   [[nodiscard]] const Shape& shape(std::size_t s) const { return *shapes_[reaching_[s]].shape; }
   [[nodiscard]] std::int32_t material(std::size_t s) const { return shapes_[reaching_[s]].material; }
   void select(const Box& cell, std::span<const std::int32_t> candidates);
-  [[nodiscard]] bool strongly_curved(const Box& cell) const;
-  void sample(const Box& cell, std::size_t lines, double weight);
+  [[nodiscard]] bool is_gentle(const Box& cell, std::size_t axis) const;
+  void sample(const Box& cell, std::size_t axis, std::size_t lines, double weight);
   void add_row(double from, double to, std::size_t lines);
   void share_line(double from, double to, std::size_t column);
   void append(Fractions& fractions);

@@ -7,7 +7,7 @@ namespace sculpt {
 namespace {
 
 constexpr std::int64_t kBinsPerShape = 8, kMostBinsPerShape = 32;
-constexpr std::int64_t kEntriesPerShape = 64;  // in all bins together
+constexpr std::int64_t kEntriesPerShape = 100;  // in all bins together
 
 bool overlap(const Box& a, const Box& b) {
   return a.lo.x < b.hi.x && b.lo.x < a.hi.x && a.lo.y < b.hi.y && b.lo.y < a.hi.y && a.lo.z < b.hi.z &&
@@ -114,11 +114,6 @@ void ShapeIndex::find(const Box& box, std::vector<std::int32_t>& found) const {
   if (bins.size() == 1) return;
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
-}
-
-bool ShapeIndex::is_near(std::int32_t shape, const Vec3& p) const {
-  const Box& b = bounds_[static_cast<std::size_t>(shape)];
-  return b.lo.x <= p.x && p.x <= b.hi.x && b.lo.y <= p.y && p.y <= b.hi.y && b.lo.z <= p.z && p.z <= b.hi.z;
 }
 
 }  // namespace sculpt

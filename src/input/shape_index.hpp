@@ -24,7 +24,10 @@ class ShapeIndex {
   void find(const Box& box, std::vector<std::int32_t>& found) const;
   // The shapes near the point and some more.
   [[nodiscard]] std::span<const std::int32_t> around(const Vec3& p) const { return bin(number(bin_of(p))); }
-  [[nodiscard]] bool is_near(std::int32_t shape, const Vec3& p) const;
+  [[nodiscard]] bool is_near(std::int32_t shape, const Vec3& p) const {
+    const Box& b = bounds_[static_cast<std::size_t>(shape)];
+    return b.lo.x <= p.x && p.x <= b.hi.x && b.lo.y <= p.y && p.y <= b.hi.y && b.lo.z <= p.z && p.z <= b.hi.z;
+  }
 
  private:
   // Lays bins of about this width over the space.

@@ -1,6 +1,7 @@
 #include "input/cell_meter.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sculpt {
 namespace {
@@ -13,6 +14,17 @@ double line(const Box& cell, std::size_t axis, std::size_t l, std::size_t lines)
 }
 
 }  // namespace
+
+// The lines of a cell that may meet the bounds, by their coordinate on an axis.
+CellMeter::Lines CellMeter::lines_between(const Box& cell, std::size_t axis, std::size_t lines,
+                                          const Box& bounds) {
+  const auto all = static_cast<double>(lines);
+  const double per_length = all / (cell.hi[axis] - cell.lo[axis]);
+  const double first = std::floor((bounds.lo[axis] - cell.lo[axis]) * per_length - 0.5),
+               last = std::ceil((bounds.hi[axis] - cell.lo[axis]) * per_length + 0.5);
+  return {static_cast<std::size_t>(std::clamp(first, 0.0, all)),
+          static_cast<std::size_t>(std::clamp(last, 0.0, all))};
+}
 
 void CellMeter::measure(const Box& cell, std::span<const std::int32_t> candidates, Fractions& fractions) {
   if (const auto sole = sole_material(cell, candidates)) {
@@ -76,51 +88,77 @@ void CellMeter::sample(const Box& cell, std::size_t axis, std::size_t lines, dou
   const double from = cell.lo[axis], to = cell.hi[axis];
   Row v;
   for (std::size_t l = 0; l < lines; ++l) v[l] = line(cell, axis_v, l, lines);
-  length_.assign(reaching_.size(), Row{});
-  lo_.resize(reaching_.size());
-  hi_.resize(reaching_.size());
+  chords_.resize(reaching_.size());
+  for (std::size_t s = 0; s < reaching_.size(); ++s) {
+    const Box bounds = shape(s).bounds();
+    chords_[s].rows = lines_between(cell, axis_u, lines, bounds);
+    chords_[s].columns = lines_between(cell, axis_v, lines, bounds);
+    chords_[s].lo.fill(to);  // no chord in the columns beyond its own
+    chords_[s].hi.fill(from);
+    chords_[s].length.fill(0);
+  }
   for (std::size_t l = 0; l < lines; ++l) {
     const double u = line(cell, axis_u, l, lines);
-    for (std::size_t s = 0; s < reaching_.size(); ++s)
-      shape(s).chords(axis, u, {v.data(), lines}, {lo_[s].data(), lines}, {hi_[s].data(), lines});
-    if (reaching_.size() <= 2)
-      add_row(from, to, lines);
-    else
-      for (std::size_t column = 0; column < lines; ++column) share_line(from, to, column);
+    in_row_.clear();
+    for (std::size_t s = 0; s < reaching_.size(); ++s) {
+      if (l < chords_[s].rows.first || l >= chords_[s].rows.last) continue;
+      const std::size_t first = chords_[s].columns.first, count = chords_[s].columns.last - first;
+      shape(s).chords(axis, u, {v.data() + first, count}, {chords_[s].lo.data() + first, count},
+                      {chords_[s].hi.data() + first, count});
+      in_row_.push_back(s);
+    }
+    add_row(from, to, lines);
   }
   const double per_length = weight / (static_cast<double>(lines * lines) * (to - from));
   for (std::size_t s = 0; s < reaching_.size(); ++s) {
     double length = 0;
-    for (std::size_t column = 0; column < lines; ++column) length += length_[s][column];
+    for (std::size_t column = 0; column < lines; ++column) length += chords_[s].length[column];
     covered_[s] += length * per_length;
   }
 }
 
-// One or two shapes, all lines of a row side by side: the second gets its chord less what it shares with the
-// first.
 void CellMeter::add_row(double from, double to, std::size_t lines) {
-  const double *const lo = lo_[0].data(), *const hi = hi_[0].data();
-  double* const length = length_[0].data();
+  if (in_row_.size() == 1)
+    add_one(from, to, lines);
+  else if (in_row_.size() == 2)
+    add_two(from, to, lines);
+  else if (!in_row_.empty())
+    for (std::size_t column = 0; column < lines; ++column) share_line(from, to, column);
+}
+
+// One shape, all lines of the row side by side.
+void CellMeter::add_one(double from, double to, std::size_t lines) {
+  Chords& chords = chords_[in_row_[0]];
+  const double *const lo = chords.lo.data(), *const hi = chords.hi.data();
+  double* const length = chords.length.data();
   for (std::size_t l = 0; l < lines; ++l) {
     const double start = lo[l] > from ? lo[l] : from, end = hi[l] < to ? hi[l] : to;
     length[l] += end > start ? end - start : 0.0;
   }
-  if (reaching_.size() < 2) return;
-  const double *const lo2 = lo_[1].data(), *const hi2 = hi_[1].data();
-  double* const length2 = length_[1].data();
+}
+
+// The second shape gets its chord less what it has in common with the first one's.
+void CellMeter::add_two(double from, double to, std::size_t lines) {
+  add_one(from, to, lines);
+  const Chords& first = chords_[in_row_[0]];
+  Chords& second = chords_[in_row_[1]];
+  const double *const first_lo = first.lo.data(), *const first_hi = first.hi.data();
+  const double *const lo = second.lo.data(), *const hi = second.hi.data();
+  double* const length = second.length.data();
   for (std::size_t l = 0; l < lines; ++l) {
-    const double start = lo2[l] > from ? lo2[l] : from, end = hi2[l] < to ? hi2[l] : to;
-    const double start_both = lo[l] > start ? lo[l] : start, end_both = hi[l] < end ? hi[l] : end;
-    const double both = end_both > start_both ? end_both - start_both : 0.0;
-    length2[l] += end > start ? (end - start) - both : 0.0;
+    const double start = lo[l] > from ? lo[l] : from, end = hi[l] < to ? hi[l] : to;
+    const double common_start = first_lo[l] > start ? first_lo[l] : start,
+                 common_end = first_hi[l] < end ? first_hi[l] : end;
+    const double common = common_end > common_start ? common_end - common_start : 0.0;
+    length[l] += end > start ? (end - start) - common : 0.0;
   }
 }
 
 // Deals the line out: each shape takes what is left of its chord.
 void CellMeter::share_line(double from, double to, std::size_t column) {
   left_.assign(1, {from, to});
-  for (std::size_t s = 0; s < reaching_.size() && !left_.empty(); ++s) {
-    const double lo = lo_[s][column], hi = hi_[s][column];
+  for (const std::size_t s : in_row_) {
+    const double lo = chords_[s].lo[column], hi = chords_[s].hi[column];
     if (!(lo < hi)) continue;
     next_.clear();
     for (const Piece& piece : left_) {
@@ -129,7 +167,7 @@ void CellMeter::share_line(double from, double to, std::size_t column) {
         next_.push_back(piece);
         continue;
       }
-      length_[s][column] += end - start;
+      chords_[s].length[column] += end - start;
       if (piece.from < start) next_.push_back({piece.from, start});
       if (end < piece.to) next_.push_back({end, piece.to});
     }

@@ -32,6 +32,15 @@ class CellMeter {
   struct Piece {
     double from, to;
   };
+  struct Lines {
+    std::size_t first, last;  // half open
+  };
+  // What a shape cuts from the lines of one row. It has no chords beyond its rows and columns.
+  struct Chords {
+    Lines rows, columns;
+    Row lo, hi;
+    Row length;  // by column: what the shape has got so far
+  };
   struct Share {
     std::int32_t material;
     double value;
@@ -42,7 +51,11 @@ class CellMeter {
   void select(const Box& cell, std::span<const std::int32_t> candidates);
   [[nodiscard]] bool is_gentle(const Box& cell, std::size_t axis) const;
   void sample(const Box& cell, std::size_t axis, std::size_t lines, double weight);
+  [[nodiscard]] static Lines lines_between(const Box& cell, std::size_t axis, std::size_t lines,
+                                           const Box& bounds);
   void add_row(double from, double to, std::size_t lines);
+  void add_one(double from, double to, std::size_t lines);
+  void add_two(double from, double to, std::size_t lines);
   void share_line(double from, double to, std::size_t column);
   void append(Fractions& fractions);
 
@@ -51,7 +64,8 @@ class CellMeter {
   std::vector<std::size_t> reaching_;  // positions in shapes_
   bool filled_ = false;                // the last of them fills the cell
   std::vector<double> covered_;        // per reaching shape: its share of the cell
-  std::vector<Row> lo_, hi_, length_;  // per reaching shape
+  std::vector<Chords> chords_;         // per reaching shape
+  std::vector<std::size_t> in_row_;    // the reaching shapes that may meet the present row
   std::vector<Piece> left_, next_;
   std::vector<Share> shares_;
 };

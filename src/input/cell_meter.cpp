@@ -117,46 +117,47 @@ void CellMeter::sample(const Box& cell, std::size_t axis, std::size_t lines, dou
   }
 }
 
+// Gives the shapes of the row what they get of it, all lines side by side if possible.
 void CellMeter::add_row(double from, double to, std::size_t lines) {
-  if (in_row_.size() == 1)
-    add_one(from, to, lines);
-  else if (in_row_.size() == 2)
-    add_two(from, to, lines);
-  else if (!in_row_.empty())
-    for (std::size_t column = 0; column < lines; ++column) share_line(from, to, column);
-}
-
-// One shape, all lines of the row side by side.
-void CellMeter::add_one(double from, double to, std::size_t lines) {
-  Chords& chords = chords_[in_row_[0]];
-  const double *const lo = chords.lo.data(), *const hi = chords.hi.data();
-  double* const length = chords.length.data();
-  for (std::size_t l = 0; l < lines; ++l) {
-    const double start = lo[l] > from ? lo[l] : from, end = hi[l] < to ? hi[l] : to;
-    length[l] += end > start ? end - start : 0.0;
+  const auto add_all = [&] {
+    for (const std::size_t s : in_row_)
+      add_common(chords_[s], chords_[s], 1, {from, to}, lines, chords_[s].length);
+  };
+  if (in_row_.size() <= 2) {
+    add_all();
+    if (in_row_.size() == 2) {  // the first one keeps what both have
+      Chords& second = chords_[in_row_[1]];
+      add_common(chords_[in_row_[0]], second, -1, {from, to}, lines, second.length);
+    }
+    return;
   }
+  Row common{};
+  for (std::size_t a = 1; a < in_row_.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      add_common(chords_[in_row_[a]], chords_[in_row_[b]], 1, {from, to}, lines, common);
+  if (std::all_of(common.begin(), common.end(), [](double c) { return c == 0; }))
+    add_all();
+  else
+    for (std::size_t column = 0; column < lines; ++column) share_line({from, to}, column);
 }
 
-// The second shape gets its chord less what it has in common with the first one's.
-void CellMeter::add_two(double from, double to, std::size_t lines) {
-  add_one(from, to, lines);
-  const Chords& first = chords_[in_row_[0]];
-  Chords& second = chords_[in_row_[1]];
-  const double *const first_lo = first.lo.data(), *const first_hi = first.hi.data();
-  const double *const lo = second.lo.data(), *const hi = second.hi.data();
-  double* const length = second.length.data();
+// Adds to `sum`, with the sign, the length that the chords of two shapes have in common within a piece of
+// each line.
+void CellMeter::add_common(const Chords& a, const Chords& b, double sign, const Piece& piece,
+                           std::size_t lines, Row& sum) {
+  const double *const lo_a = a.lo.data(), *const hi_a = a.hi.data();
+  const double *const lo_b = b.lo.data(), *const hi_b = b.hi.data();
+  const double from = piece.from, to = piece.to;
   for (std::size_t l = 0; l < lines; ++l) {
-    const double start = lo[l] > from ? lo[l] : from, end = hi[l] < to ? hi[l] : to;
-    const double common_start = first_lo[l] > start ? first_lo[l] : start,
-                 common_end = first_hi[l] < end ? first_hi[l] : end;
-    const double common = common_end > common_start ? common_end - common_start : 0.0;
-    length[l] += end > start ? (end - start) - common : 0.0;
+    const double lo = lo_a[l] > lo_b[l] ? lo_a[l] : lo_b[l], hi = hi_a[l] < hi_b[l] ? hi_a[l] : hi_b[l];
+    const double start = lo > from ? lo : from, end = hi < to ? hi : to;
+    sum[l] += sign * (end > start ? end - start : 0.0);
   }
 }
 
 // Deals the line out: each shape takes what is left of its chord.
-void CellMeter::share_line(double from, double to, std::size_t column) {
-  left_.assign(1, {from, to});
+void CellMeter::share_line(const Piece& whole, std::size_t column) {
+  left_.assign(1, whole);
   for (const std::size_t s : in_row_) {
     const double lo = chords_[s].lo[column], hi = chords_[s].hi[column];
     if (!(lo < hi)) continue;

@@ -54,9 +54,9 @@ class CellMeter {
   [[nodiscard]] static Lines lines_between(const Box& cell, std::size_t axis, std::size_t lines,
                                            const Box& bounds);
   void add_row(double from, double to, std::size_t lines);
-  void add_one(double from, double to, std::size_t lines);
-  void add_two(double from, double to, std::size_t lines);
-  void share_line(double from, double to, std::size_t column);
+  static void add_common(const Chords& a, const Chords& b, double sign, const Piece& piece, std::size_t lines,
+                         Row& sum);
+  void share_line(const Piece& whole, std::size_t column);
   void append(Fractions& fractions);
 
   std::span<const InsertedShape> shapes_;

@@ -154,7 +154,8 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
   return c;
 }
 
-// Volume of each material, in cells, if the cells were meshed as they are now (stair) or contoured.
+// Volume of each material, in cells of level 0, if the cells were meshed as they are now (stair) or
+// contoured.
 std::vector<double> contoured_volumes(const Comm& comm, const Deck& deck, Overlay& overlay) {
   HexMesh& cells = overlay.cells;
   const std::vector<Vec3> grid = cells.position;
@@ -168,7 +169,8 @@ std::vector<double> contoured_volumes(const Comm& comm, const Deck& deck, Overla
     bool bent = false;
     for (const LocalId n : cells.hexes[at(c)])
       bent = bent || (!shape.faces.index_of.empty() && shape.faces.index_of[at(n)] != kNone);
-    units[at(cells.material[at(c)])] += to_units(bent ? hex_volume(cells.corners(c)) / cell : 1.0);
+    units[at(cells.material[at(c)])] +=
+        to_units(bent ? hex_volume(cells.corners(c)) / cell : cells.volume_in_cells(c));
   }
   comm.sum(units);
   cells.position = grid;

@@ -194,8 +194,9 @@ SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& ov
   const Brep brep = build_brep(comm, overlay.cells, overlay.neighbours, faces);
   log.line("  {} volumes, {} surfaces, {} curves, {} vertices", brep.volumes, brep.surfaces, brep.curves,
            brep.vertices);
-  return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop, overlay.grid,
-                        deck.gen_sidesets);
+  const bool is_lattice = overlay.cells.lattice[0] != 0;
+  return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop,
+                        is_lattice ? overlay.grid : Index3{0, 0, 0}, deck.gen_sidesets);
 }
 
 // Smoothing moves volumes a little; materials that were thickened to a volume get the rest of it here.

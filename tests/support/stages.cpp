@@ -15,6 +15,13 @@ Overlay overlay(const Comm& comm, const Case& input, int layers) {
   const CartesianParts parts = cut_grid(input.grid.cells, comm.size(), {0, 0, 0});
   Overlay o{lattice_mesh(comm, input.grid, parts, layers),
             fractions_in(input, parts.ghosted(comm.rank(), layers))};
+  if (input.level) {
+    o.cells.lattice = {0, 0, 0};
+    o.cells.cell_size = input.cell_size;
+    const IndexBox nodes{{0, 0, 0},
+                         {input.grid.cells[0] + 1, input.grid.cells[1] + 1, input.grid.cells[2] + 1}};
+    for (const GlobalId n : o.cells.node_id) o.cells.level.push_back(input.level(nodes.cell(n)));
+  }
   assign_materials(o.cells, o.fractions, face_neighbours(o.cells));
   return o;
 }
@@ -23,6 +30,19 @@ Overlay overlay(const Case& input) { return overlay(Comm::self(), input); }
 HexMesh lattice(const Index3& cells) {
   return overlay(voxels(cells, std::vector<std::int32_t>(static_cast<std::size_t>(whole(cells).size()), 0)))
       .cells;
+}
+
+HexMesh turned(HexMesh mesh) {
+  constexpr std::array<std::array<std::size_t, 8>, 3> kTurns{
+      {{1, 2, 3, 0, 5, 6, 7, 4}, {4, 7, 6, 5, 0, 3, 2, 1}, {0, 3, 7, 4, 1, 2, 6, 5}}};
+  mesh.lattice = {0, 0, 0};
+  for (std::size_t h = 0; h < mesh.hexes.size(); ++h)
+    for (std::size_t turn = 0; turn < 3; ++turn)
+      if (scatter(turn, static_cast<std::uint64_t>(mesh.hex_id[h])) & 8) {
+        const Hex before = mesh.hexes[h];
+        for (std::size_t c = 0; c < 8; ++c) mesh.hexes[h][c] = before[kTurns[turn][c]];
+      }
+  return mesh;
 }
 
 Overlay filtered(const Comm& comm, const Case& input, int layers) {

@@ -29,6 +29,9 @@ struct Overlay {
 // The mesh of a grid of one material, one rank alone.
 [[nodiscard]] HexMesh lattice(const Index3& cells);
 
+// The same mesh, which does not know that it is a lattice, with the corners of its hexes in other orders.
+[[nodiscard]] HexMesh turned(HexMesh mesh);
+
 struct StageOptions {
   LayerPlan layers;
   std::int32_t void_material = -1;  // left out of the mesh

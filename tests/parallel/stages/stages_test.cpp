@@ -43,6 +43,12 @@ TEST(SameMesh, OfTwoPhaseNoise) {
   expect_same_alone_and_together(input);
 }
 
+TEST(SameMesh, OfCellsOfSeveralSizes) {
+  const Vec3 centre{4.1, 3.9, 4};
+  expect_same_alone_and_together(
+      graded({10, 11, 9}, 4, [&](const Vec3& p) { return norm(p - centre) < 2.3; }));
+}
+
 TEST(SameMesh, WithoutTheVoid) {
   StageOptions options;
   options.void_material = 0;

@@ -114,6 +114,31 @@ TEST(GradedMesh, OfASlantedPlaneThatCrossesTheGrading) {
   expect_near(r, 0.45, 0.08, distance);
 }
 
+TEST(IrregularMesh, GoesThroughAllStages) {
+  std::vector<StageOptions> all(5);
+  for (std::size_t i = 1; i < 4; ++i) {
+    all[i].filter.defeature = all[i].filter.collapse = all[i].filter.reversals = true;
+    all[i].filter.defeature_box = i == 2;
+  }
+  all[1].filter.keep_materials = 14;
+  all[2].layers.surfaces = true;
+  all[3].layers.curves = true;
+  all[3].layers.curve_threshold = 0.5;
+  all[4].interfaces.projection = SurfaceProjection::kInterface;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    for (const StageOptions& options : all) {
+      const StagesResult r = test::run_stages(
+          Comm::self(), test::irregular(Comm::self(), {9, 10, 9}, 14, seed, options.layers.ghost_layers()),
+          true, options);
+      // The ids tell the pillow of the cells as well.
+      EXPECT_EQ(test::conformity_problem(r.mesh, r.pillows), "") << seed;
+      EXPECT_EQ(test::boundary_problem(r.mesh), "") << seed;
+      EXPECT_NEAR(test::volume(r.mesh), 810, 1e-9) << seed;
+      EXPECT_GE(test::least_scaled_jacobian(r.mesh), 0.25) << seed;
+      EXPECT_EQ(summarise(Comm::self(), r.mesh).not_positive_inside, 0) << seed;
+    }
+}
+
 TEST(GradedMesh, CountsVolumesByTheCells) {
   const test::Case input = test::graded({9, 8, 7}, 4, [](const Vec3& p) { return p.x + p.y < 5.3; });
   const test::Overlay o = test::overlay(input);

@@ -9,6 +9,7 @@
 #include "sculpt/base/lot.hpp"
 #include "sculpt/filter/filter.hpp"
 #include "sculpt/mesh/adjacency.hpp"
+#include "sculpt/mesh/edge_walk.hpp"
 #include "sculpt/mesh/hex_mesh.hpp"
 
 namespace sculpt {
@@ -157,14 +158,16 @@ class Protrusions : public CellChanges {
   bool at_box_;
 };
 
-// Collapses small surfaces: contacts of two materials in a single face. Lattices only.
+// Collapses small surfaces: contacts of two materials in a single face.
 class Collapses : public CellChanges {
  public:
   explicit Collapses(Edits& edits) : CellChanges(edits, 2) {}
 
  private:
   [[nodiscard]] std::int32_t better(LocalId cell) const override;
-  [[nodiscard]] bool alone(LocalId cell, std::size_t face) const;
+  [[nodiscard]] bool goes_on(HexFace face, LocalId a, LocalId b) const;
+  [[nodiscard]] bool alone(HexFace face) const;
+  [[nodiscard]] int alone_beyond(HexFace face, LocalId a, LocalId b, bool& closed) const;
   [[nodiscard]] int alone_around(LocalId cell) const;
   [[nodiscard]] bool manifold_around(LocalId cell) const;
 };

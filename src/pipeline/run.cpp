@@ -98,7 +98,8 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
   return c;
 }
 
-// Volume of each material, in cells, if the cells were meshed as they are now (stair) or contoured.
+// Volume of each material, in cells of level 0, if the cells were meshed as they are now (stair) or
+// contoured.
 std::vector<double> contoured_volumes(const Comm& comm, const Deck& deck, Overlay& overlay) {
   HexMesh& cells = overlay.cells;
   const std::vector<Vec3> grid = cells.position;
@@ -112,7 +113,8 @@ std::vector<double> contoured_volumes(const Comm& comm, const Deck& deck, Overla
     bool bent = false;
     for (const LocalId n : cells.hexes[at(c)])
       bent = bent || (!shape.faces.index_of.empty() && shape.faces.index_of[at(n)] != kNone);
-    units[at(cells.material[at(c)])] += to_units(bent ? hex_volume(cells.corners(c)) / cell : 1.0);
+    units[at(cells.material[at(c)])] +=
+        to_units(bent ? hex_volume(cells.corners(c)) / cell : cells.volume_in_cells(c));
   }
   comm.sum(units);
   cells.position = grid;
@@ -136,8 +138,9 @@ SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& ov
   const Brep brep = build_brep(comm, overlay.cells, overlay.neighbours, faces);
   log.line("  {} volumes, {} surfaces, {} curves, {} vertices", brep.volumes, brep.surfaces, brep.curves,
            brep.vertices);
-  return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop, overlay.grid,
-                        deck.gen_sidesets);
+  const bool is_lattice = overlay.cells.lattice[0] != 0;
+  return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop,
+                        is_lattice ? overlay.grid : Index3{0, 0, 0}, deck.gen_sidesets);
 }
 
 // Smoothing moves volumes a little; materials that were thickened to a volume get the rest of it here.

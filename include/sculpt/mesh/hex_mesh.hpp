@@ -73,6 +73,10 @@ struct HexMesh {
       p[c] = position[static_cast<std::size_t>(hexes[static_cast<std::size_t>(hex)][c])];
     return p;
   }
+  // Volume of a cell of the overlay mesh, in units of that of cell_size: in a lattice all count as one.
+  [[nodiscard]] double volume_in_cells(LocalId cell) const {
+    return lattice[0] != 0 ? 1.0 : hex_volume(corners(cell)) / (cell_size.x * cell_size.y * cell_size.z);
+  }
 };
 
 // Local: sides of the box that all corners of a hex face share; 0 inside.

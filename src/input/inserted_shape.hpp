@@ -1,6 +1,7 @@
 #pragma once
 // A shape of the input in its place in the order of insertion. Where shapes overlap, the one inserted first
 // wins.
+#include <cstdint>
 #include <memory>
 
 #include "sculpt/geom/shape.hpp"

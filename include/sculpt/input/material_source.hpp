@@ -86,7 +86,7 @@ class MaterialSource {
   // copy only). The field of data takes boxes within the wanted cells (BrokenPromise otherwise) and gives the
   // averages of the cells they overlap, by volume; the outermost cells of the grid extend to infinity. Planes
   // that differ from those of the grid by a millionth of a cell are the same. The field of shapes takes any
-  // box.
+  // box and knows what lies beyond the grid.
   [[nodiscard]] virtual std::unique_ptr<MaterialField> field(Fractions fractions,
                                                              const IndexBox& wanted) const;
   // What the input knows exactly of its surfaces. Stays usable when the source is gone.

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "sculpt/base/error.hpp"
+#include "adapt/template_shape.hpp"
 #include "sculpt/geom/hex.hpp"
 
 namespace sculpt {
@@ -420,6 +420,7 @@ std::unique_ptr<const BlockTemplate> block_template(BlockPattern pattern, unsign
     auto& out = result->hex.emplace_back();
     for (std::size_t c = 0; c < 8; ++c) out[c] = static_cast<std::uint16_t>(index[at(hex[c])]);
   }
+  relax_interior(*result, ends);
   return result;
 }
 

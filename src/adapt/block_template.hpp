@@ -21,8 +21,8 @@ inline constexpr int kBlockNeighbours = 18;
 extern const std::array<std::array<int, 3>, kBlockNeighbours> kBlockOffset;
 
 struct BlockTemplate {
-  // Positions in cells, [0,2] per axis; exact in binary. Nodes on the surface of the block first: their positions are
-  // multiples of 1/8 and tell them apart, in this block and in those beside it. `surface` counts them.
+  // Positions in cells, [0,2] per axis. Nodes on the surface of the block first: their positions are multiples of 1/8 and
+  // tell them apart, in this block and in those beside it. `surface` counts them.
   std::vector<Vec3> node;
   std::size_t surface = 0;
   std::vector<std::array<std::uint16_t, 8>> hex;  // Exodus corner order

@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kPasses = 8;
 constexpr double kGood = 0.45, kFair = 0.35;               // worst corners (scaled Jacobian) that are left alone, or nearly
+constexpr double kPerEdge = 3;                             // an edge of this times its length, in cells, counts as a corner of that value
 constexpr double kFirstStep = 0.15, kShorter = 0.7;        // steps along the axes, in cells, and from pass to pass
 
 class Relaxation {
@@ -59,14 +60,15 @@ class Relaxation {
     else
       block_.node[n] = before;
   }
-  // Smallest scaled Jacobian of the corners that the node has a part in.
+  // Smallest scaled Jacobian of the corners that the node has a part in; short edges count as well.
   [[nodiscard]] double worst_at(std::size_t n) const {
     double worst = 2;
     for (const auto& [h, c] : corners_[n]) {
       HexCorners p;
       for (std::size_t i = 0; i < 8; ++i) p[i] = block_.node[block_.hex[h][i]];
       worst = std::min(worst, corner_scaled_jacobian(p, static_cast<int>(c)));
-      for (const int k : kCornerNeighbours[c]) worst = std::min(worst, corner_scaled_jacobian(p, k));
+      for (const int k : kCornerNeighbours[c])
+        worst = std::min({worst, corner_scaled_jacobian(p, k), kPerEdge * norm(p[static_cast<std::size_t>(k)] - p[c])});
     }
     return worst;
   }

@@ -27,8 +27,9 @@ const std::array<std::array<int, 3>, kBlockNeighbours> kBlockOffset = [] {
 
 namespace {
 
-// A corner of a new hex: the centre of the old corners that are named (one: the corner itself; two: the middle of an
-// edge; four: of a face; eight: of the hex), as a mask. Corners of which several are named as one in kMerged are one node.
+// A corner of a new hex: the centre of the old corners that are named (one: the corner itself; two: the
+// middle of an edge; four: of a face; eight: of the hex), as a mask. Corners of which several are named as
+// one in kMerged are one node.
 using Site = std::uint8_t;
 using NewHex = std::array<Site, 8>;
 
@@ -38,7 +39,8 @@ constexpr Site site(std::initializer_list<int> corners) {
   return static_cast<Site>(mask);
 }
 
-// What becomes of a hex with some corners marked; all edges from a marked corner to one that is not are halved.
+// What becomes of a hex with some corners marked; all edges from a marked corner to one that is not are
+// halved.
 struct Cut {
   Site marked;
   std::vector<NewHex> hexes;
@@ -49,7 +51,8 @@ struct Cut {
 const std::vector<Cut>& canonical_cuts() {
   constexpr auto s = site;
   static const std::vector<Cut> cuts = [] {
-    const Site c0 = s({0}), c1 = s({1}), c2 = s({2}), c3 = s({3}), c4 = s({4}), c5 = s({5}), c6 = s({6}), c7 = s({7});
+    const Site c0 = s({0}), c1 = s({1}), c2 = s({2}), c3 = s({3}), c4 = s({4}), c5 = s({5}), c6 = s({6}),
+               c7 = s({7});
     std::vector<Cut> all;
     // One corner: four hexes around the centre.
     const Site ex = s({0, 1}), ey = s({0, 3}), ez = s({0, 4}), fz = s({0, 1, 2, 3}), fy = s({0, 1, 4, 5}),
@@ -70,9 +73,10 @@ const std::vector<Cut>& canonical_cuts() {
                    {}});
     // A face: halves.
     const Site h0 = s({0, 4}), h1 = s({1, 5}), h2 = s({2, 6}), h3 = s({3, 7});
-    all.push_back({s({0, 1, 2, 3}), {{c0, c1, c2, c3, h0, h1, h2, h3}, {h0, h1, h2, h3, c4, c5, c6, c7}}, {}});
-    // Three corners of a face. The quad (0,1,2,3) becomes the quad (0,1,p,3) and the edge p-2: the middles of the
-    // edges at corner 2 are one node, and the hexes beyond the faces at corner 2 become neighbours.
+    all.push_back(
+        {s({0, 1, 2, 3}), {{c0, c1, c2, c3, h0, h1, h2, h3}, {h0, h1, h2, h3, c4, c5, c6, c7}}, {}});
+    // Three corners of a face. The quad (0,1,2,3) becomes the quad (0,1,p,3) and the edge p-2: the middles of
+    // the edges at corner 2 are one node, and the hexes beyond the faces at corner 2 become neighbours.
     const Site p = s({1, 2}), f = d1;
     all.push_back({s({0, 1, 3}),
                    {{c0, c1, p, c3, h0, h1, f, h3}, {h0, h1, f, h3, c4, c5, c6, c7}},
@@ -81,7 +85,8 @@ const std::vector<Cut>& canonical_cuts() {
     const Site q = s({2, 6});
     all.push_back({s({0, 1, 2, 3, 4, 5, 7}), {{c0, c1, c2, c3, c4, c5, q, c7}}, {{q, s({5, 6}), s({6, 7})}}});
     const Site r = s({3, 7});
-    all.push_back({s({0, 1, 2, 3, 4, 5}), {{c0, c1, c2, c3, c4, c5, q, r}}, {{q, s({5, 6})}, {r, s({4, 7})}}});
+    all.push_back(
+        {s({0, 1, 2, 3, 4, 5}), {{c0, c1, c2, c3, c4, c5, q, r}}, {{q, s({5, 6})}, {r, s({4, 7})}}});
     all.push_back({s({0, 1, 2, 3, 4, 5, 6, 7}), {{c0, c1, c2, c3, c4, c5, c6, c7}}, {}});
     return all;
   }();
@@ -138,11 +143,13 @@ const std::array<std::optional<Cut>, 256>& cuts() {
   return table;
 }
 
-// Planes of the block that hold a node: bit 3 * axis + 0 (low side), 1 (middle), 2 (high side). Topological: a merged
-// node is on all planes of its members, wherever it lies.
+// Planes of the block that hold a node: bit 3 * axis + 0 (low side), 1 (middle), 2 (high side). Topological:
+// a merged node is on all planes of its members, wherever it lies.
 using Planes = std::uint16_t;
 constexpr Planes kSurface = 0b101101101;
-constexpr Planes plane(std::size_t axis, std::size_t which) { return static_cast<Planes>(1U << (3 * axis + which)); }
+constexpr Planes plane(std::size_t axis, std::size_t which) {
+  return static_cast<Planes>(1U << (3 * axis + which));
+}
 
 class BlockCutter {
  public:
@@ -181,7 +188,9 @@ class BlockCutter {
   [[nodiscard]] const std::vector<Vec3>& positions() const { return position_; }
   [[nodiscard]] std::uint8_t double_sides() const { return double_sides_; }
   [[nodiscard]] bool on_surface(LocalId n) const { return (planes_[at(n)] & kSurface) != 0; }
-  [[nodiscard]] bool on_middle(LocalId n, std::size_t axis) const { return (planes_[at(n)] & plane(axis, 1)) != 0; }
+  [[nodiscard]] bool on_middle(LocalId n, std::size_t axis) const {
+    return (planes_[at(n)] & plane(axis, 1)) != 0;
+  }
 
  private:
   using Quad = std::array<LocalId, 4>;
@@ -220,9 +229,9 @@ class BlockCutter {
     return quads;
   }
 
-  // Marks more nodes until every quad can be cut: two marked nodes across a quad mark it all, and a node that would lose
-  // so many edges by merging that fewer than three are left is marked. False where this reaches the surface
-  // of the block, which other blocks share.
+  // Marks more nodes until every quad can be cut: two marked nodes across a quad mark it all, and a node that
+  // would lose so many edges by merging that fewer than three are left is marked. False where this reaches
+  // the surface of the block, which other blocks share.
   bool close(std::size_t axis) {
     const std::vector<Quad> quads = quads_of(axis);
     for (bool changed = true; changed;) {
@@ -315,8 +324,8 @@ class BlockCutter {
     return known->second;
   }
 
-  // Merged nodes lie in the middle of their members. A node that others share, or on the side of the domain, stays where it
-  // is, so no two of them can be merged.
+  // Merged nodes lie in the middle of their members. A node that others share, or on the side of the domain,
+  // stays where it is, so no two of them can be merged.
   bool merge(const std::vector<std::pair<LocalId, LocalId>>& merges) {
     std::vector<LocalId> group(position_.size());
     for (std::size_t n = 0; n < group.size(); ++n) group[n] = static_cast<LocalId>(n);
@@ -389,7 +398,7 @@ class BlockCutter {
   std::vector<Planes> planes_;
   std::vector<std::uint8_t> marked_;
   std::vector<Hex> hexes_;
-  std::vector<std::uint8_t> half_;               // per hex: the octant of the block
+  std::vector<std::uint8_t> half_;                // per hex: the octant of the block
   std::map<std::vector<LocalId>, LocalId> made_;  // nodes of this pass, by their parents
 };
 

@@ -139,7 +139,8 @@ class Marker {
   [[nodiscard]] bool parts_differ(const Box& box) {
     std::array<std::optional<std::int32_t>, 8> sole;
     for (unsigned o = 0; o < 8; ++o) sole[o] = field_.sole_material(octant(box, o));
-    if (sole[0] && std::all_of(sole.begin(), sole.end(), [&](const auto& s) { return s == sole[0]; })) return false;
+    if (sole[0] && std::all_of(sole.begin(), sole.end(), [&](const auto& s) { return s == sole[0]; }))
+      return false;
     clear(scratch_);
     for (unsigned o = 0; o < 8; ++o) {
       if (sole[o]) {
@@ -162,7 +163,8 @@ class Marker {
   }
 
   // Interfaces may run between cells.
-  [[nodiscard]] bool differs_from_outside(int level, const Index3& cell, const Box& box, const Vec3& thickness) {
+  [[nodiscard]] bool differs_from_outside(int level, const Index3& cell, const Box& box,
+                                          const Vec3& thickness) {
     clear(scratch_);
     field_.measure(box, scratch_);
     std::size_t count = 1;
@@ -216,10 +218,12 @@ class Marker {
         const Cut finer = cut_of(part);
         if (finer.exists) most = std::max(most, std::fabs(to_plane(finer.point)));
       } else if (criterion_.measure == AdaptMeasure::kFacetToSurface) {
-        if (const auto q = criterion_.exact(centre, whole_cell.a, whole_cell.b)) most = std::max(most, std::fabs(to_plane(*q)));
+        if (const auto q = criterion_.exact(centre, whole_cell.a, whole_cell.b))
+          most = std::max(most, std::fabs(to_plane(*q)));
       } else {
         const Vec3 r = centre - to_plane(centre) * whole_cell.normal;
-        if (const auto q = criterion_.exact(r, whole_cell.a, whole_cell.b)) most = std::max(most, norm(*q - r));
+        if (const auto q = criterion_.exact(r, whole_cell.a, whole_cell.b))
+          most = std::max(most, norm(*q - r));
       }
     }
     return most;
@@ -232,7 +236,8 @@ class Marker {
     std::vector<std::pair<double, std::int32_t>> total;
     for (std::size_t e = 0; e < scratch_.material.size(); ++e) {
       const std::int32_t m = scratch_.material[e];
-      const auto known = std::find_if(total.begin(), total.end(), [m](const auto& t) { return t.second == m; });
+      const auto known =
+          std::find_if(total.begin(), total.end(), [m](const auto& t) { return t.second == m; });
       if (known == total.end())
         total.emplace_back(-scratch_.value[e], m);
       else
@@ -245,7 +250,8 @@ class Marker {
     Vec3 slope;  // of a - b, per cell
     for (unsigned o = 0; o < 8; ++o)
       for (std::size_t d = 0; d < 3; ++d)
-        slope[d] += (o >> d & 1 ? 0.25 : -0.25) * (share_of(scratch_, o, cut.a) - share_of(scratch_, o, cut.b));
+        slope[d] +=
+            (o >> d & 1 ? 0.25 : -0.25) * (share_of(scratch_, o, cut.a) - share_of(scratch_, o, cut.b));
     if (!(norm(slope) > 0)) return cut;
     const Vec3 size = box.hi - box.lo, down = unit(-slope);  // from a to b, in cells
     const double share = total[0].first / (total[0].first + total[1].first);
@@ -259,8 +265,8 @@ class Marker {
     if (const auto sole = field_.sole_material(box)) return *sole;
     clear(scratch_);
     field_.measure(box, scratch_);
-    return scratch_.material[static_cast<std::size_t>(std::max_element(scratch_.value.begin(), scratch_.value.end()) -
-                                                      scratch_.value.begin())];
+    return scratch_.material[static_cast<std::size_t>(
+        std::max_element(scratch_.value.begin(), scratch_.value.end()) - scratch_.value.begin())];
   }
 
   // Of the eight cells around a node: the cells of every material and all others each hang together by faces.
@@ -293,8 +299,8 @@ class Marker {
 
 }  // namespace
 
-void mark_cells(const Grid& grid, const IndexBox& cells, MaterialField& field, const AdaptCriterion& criterion,
-                Forest& forest) {
+void mark_cells(const Grid& grid, const IndexBox& cells, MaterialField& field,
+                const AdaptCriterion& criterion, Forest& forest) {
   Marker marker(grid, field, criterion, forest);
   for (std::int64_t c = 0; c < cells.size(); ++c) {
     marker.visit(0, cells.cell(c));

@@ -163,7 +163,8 @@ std::uint32_t Forest::pattern(int level, const Index3& block) const {
   for (std::size_t b = 0; b < kBlockNeighbours; ++b) {
     bool hidden = false;  // an edge of a refined face is marked by that already
     for (std::size_t d = 0; b >= 6 && d < 3; ++d)
-      hidden = hidden || (kBlockOffset[b][d] != 0 && (bits >> (2 * d + (kBlockOffset[b][d] > 0 ? 1 : 0)) & 1));
+      hidden =
+          hidden || (kBlockOffset[b][d] != 0 && (bits >> (2 * d + (kBlockOffset[b][d] > 0 ? 1 : 0)) & 1));
     if (!hidden && refined(level, sum(block, kBlockOffset[b]))) bits |= 1U << b;
   }
   return bits;
@@ -177,18 +178,21 @@ unsigned Forest::ends(int level, const Index3& block) const {
   return bits;
 }
 
-void Forest::for_each_leaf(const Index3& base_block, const std::function<void(int, const Index3&)>& visit) const {
+void Forest::for_each_leaf(const Index3& base_block,
+                           const std::function<void(int, const Index3&)>& visit) const {
   visit_leaves(0, base_block, visit);
 }
 
-void Forest::visit_leaves(int level, const Index3& block, const std::function<void(int, const Index3&)>& visit) const {
+void Forest::visit_leaves(int level, const Index3& block,
+                          const std::function<void(int, const Index3&)>& visit) const {
   if (!refined(level, block)) return visit(level, block);
   const unsigned end = ends(level, block);
   for (unsigned octant = 0; octant < 8; ++octant)
     if ((octant & end) == 0)
-      visit_leaves(level + 1,
-                   {2 * block[0] + (octant & 1), 2 * block[1] + (octant >> 1 & 1), 2 * block[2] + (octant >> 2)},
-                   visit);
+      visit_leaves(
+          level + 1,
+          {2 * block[0] + (octant & 1), 2 * block[1] + (octant >> 1 & 1), 2 * block[2] + (octant >> 2)},
+          visit);
 }
 
 }  // namespace sculpt

@@ -20,7 +20,8 @@ Vec3 inside(const HexCorners& p, double u, double v, double w) {
 
 class Meter {
  public:
-  Meter(const Grid& grid, const LeafMesh& mesh, MaterialField& field) : grid_(grid), mesh_(mesh), field_(field) {}
+  Meter(const Grid& grid, const LeafMesh& mesh, MaterialField& field)
+      : grid_(grid), mesh_(mesh), field_(field) {}
 
   void measure(const Leaf& leaf, Fractions& out) {
     const Index3 low{2 * leaf.block[0], 2 * leaf.block[1], 2 * leaf.block[2]};
@@ -75,7 +76,8 @@ class Meter {
     shares_.clear();
     for (std::size_t e = 0; e < scratch_.material.size(); ++e)
       shares_.emplace_back(scratch_.material[e], scratch_.value[e]);
-    std::stable_sort(shares_.begin(), shares_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::stable_sort(shares_.begin(), shares_.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
     const double points = kSamples * kSamples * kSamples;
     for (std::size_t e = 0; e < shares_.size();) {
       double total = 0;

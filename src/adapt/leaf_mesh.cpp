@@ -14,8 +14,9 @@
 namespace sculpt {
 namespace {
 
-constexpr std::int64_t kCodes = 256;      // of the nodes at one position: itself, or the n-th inside the block there
-constexpr std::uint8_t kUnset = 255;      // level of a node that no hex was seen at yet
+constexpr std::int64_t kCodes =
+    256;  // of the nodes at one position: itself, or the n-th inside the block there
+constexpr std::uint8_t kUnset = 255;  // level of a node that no hex was seen at yet
 
 // Where a coordinate in cells of the grid lies, between its planes.
 double coordinate(const std::vector<double>& planes, double cells) {
@@ -28,7 +29,8 @@ class Builder {
  public:
   Builder(const Comm& comm, const Grid& grid, const Forest& forest, const BlockParts& parts, int layers)
       : comm_(comm), grid_(grid), forest_(forest), parts_(parts), layers_(layers) {
-    unit_ = std::int64_t{4} << forest.levels();  // per cell of the grid: an eighth of the finest cell in transition
+    unit_ = std::int64_t{4}
+            << forest.levels();  // per cell of the grid: an eighth of the finest cell in transition
     edge_ = 2 * unit_;
     per_block_ = edge_ * edge_ * edge_ * kCodes;
     const std::int64_t ring = (layers + 1) / 2;
@@ -69,8 +71,9 @@ class Builder {
     const double keys = static_cast<double>(extended_[0]) * static_cast<double>(extended_[1]) *
                         static_cast<double>(extended_[2]) * static_cast<double>(per_block_);
     if (keys > 0x1p62)
-      throw Error(fmt::format("a grid of {} x {} x {} cells refined {} times has more places than can be numbered",
-                              grid_.cells[0], grid_.cells[1], grid_.cells[2], forest_.levels()));
+      throw Error(
+          fmt::format("a grid of {} x {} x {} cells refined {} times has more places than can be numbered",
+                      grid_.cells[0], grid_.cells[1], grid_.cells[2], forest_.levels()));
   }
 
   [[nodiscard]] std::int64_t block_number(const Index3& b) const {
@@ -112,8 +115,8 @@ class Builder {
     return key(units, 0);
   }
 
-  // All nodes, ascending in their keys. A block of level 0 uses every node on its low sides, so that nearly all come
-  // block by block.
+  // All nodes, ascending in their keys. A block of level 0 uses every node on its low sides, so that nearly
+  // all come block by block.
   void collect_nodes() {
     std::vector<GlobalId> mine, beyond;
     std::int64_t hexes = 0;
@@ -228,10 +231,12 @@ class Builder {
     unsigned sides = 0;
     Index3 units;
     for (std::size_t d = 0; d < 3; ++d) {
-      const double in_units = static_cast<double>(p.low[d]) + p.shape->node[n][d] * static_cast<double>(p.step);
+      const double in_units =
+          static_cast<double>(p.low[d]) + p.shape->node[n][d] * static_cast<double>(p.step);
       units[d] = n < p.shape->surface ? static_cast<std::int64_t>(in_units) : p.low[d];
       if (!forest_.periodic()[d] && in_units == 0) sides |= 1U << (2 * d);
-      if (!forest_.periodic()[d] && in_units == static_cast<double>(grid_.cells[d] * unit_)) sides |= 2U << (2 * d);
+      if (!forest_.periodic()[d] && in_units == static_cast<double>(grid_.cells[d] * unit_))
+        sides |= 2U << (2 * d);
       x[d] = coordinate(grid_.planes[d], in_units / static_cast<double>(unit_));
     }
     Index3 block = wrapped(block_at(units));
@@ -259,7 +264,8 @@ class Builder {
       std::vector<LocalId> taken;
       for (const LocalId h : outside) {
         const Hex& hex = m.hexes[at(h)];
-        if (m.layer[at(h)] == beyond && std::any_of(hex.begin(), hex.end(), [&](LocalId n) { return reached[at(n)] != 0; }))
+        if (m.layer[at(h)] == beyond &&
+            std::any_of(hex.begin(), hex.end(), [&](LocalId n) { return reached[at(n)] != 0; }))
           taken.push_back(h);
       }
       for (const LocalId h : taken) {
@@ -314,8 +320,8 @@ class Builder {
   const BlockParts& parts_;
   int layers_;
   std::int64_t unit_ = 0, edge_ = 0, per_block_ = 0;  // per cell; per block; keys per block
-  Index3 margin_{0, 0, 0}, extended_{0, 0, 0};         // blocks of images per side; blocks that have keys
-  IndexBox region_;                                    // blocks of level 0 that are looked at
+  Index3 margin_{0, 0, 0}, extended_{0, 0, 0};        // blocks of images per side; blocks that have keys
+  IndexBox region_;                                   // blocks of level 0 that are looked at
   std::size_t expected_ = 0;
   std::vector<GlobalId> keys_, hex_key_;
   LeafMesh out_;
@@ -323,14 +329,16 @@ class Builder {
 
 }  // namespace
 
-LeafMesh leaf_mesh(const Comm& comm, const Grid& grid, const Forest& forest, const BlockParts& parts, int layers) {
+LeafMesh leaf_mesh(const Comm& comm, const Grid& grid, const Forest& forest, const BlockParts& parts,
+                   int layers) {
   return Builder(comm, grid, forest, parts, layers).run();
 }
 
 std::int64_t hexes_in(const Forest& forest, const Index3& base_block) {
   std::int64_t count = 0;
   forest.for_each_leaf(base_block, [&](int level, const Index3& block) {
-    count += static_cast<std::int64_t>(transition(forest.pattern(level, block), forest.ends(level, block)).hex.size());
+    count += static_cast<std::int64_t>(
+        transition(forest.pattern(level, block), forest.ends(level, block)).hex.size());
   });
   return count;
 }

@@ -8,9 +8,11 @@ namespace sculpt {
 namespace {
 
 constexpr int kPasses = 8;
-constexpr double kGood = 0.45, kFair = 0.35;               // worst corners (scaled Jacobian) that are left alone, or nearly
-constexpr double kPerEdge = 3;                             // an edge of this times its length, in cells, counts as a corner of that value
-constexpr double kFirstStep = 0.15, kShorter = 0.7;        // steps along the axes, in cells, and from pass to pass
+constexpr double kGood = 0.45,
+                 kFair = 0.35;  // worst corners (scaled Jacobian) that are left alone, or nearly
+constexpr double kPerEdge =
+    3;  // an edge of this times its length, in cells, counts as a corner of that value
+constexpr double kFirstStep = 0.15, kShorter = 0.7;  // steps along the axes, in cells, and from pass to pass
 
 class Relaxation {
  public:
@@ -68,15 +70,17 @@ class Relaxation {
       for (std::size_t i = 0; i < 8; ++i) p[i] = block_.node[block_.hex[h][i]];
       worst = std::min(worst, corner_scaled_jacobian(p, static_cast<int>(c)));
       for (const int k : kCornerNeighbours[c])
-        worst = std::min({worst, corner_scaled_jacobian(p, k), kPerEdge * norm(p[static_cast<std::size_t>(k)] - p[c])});
+        worst = std::min(
+            {worst, corner_scaled_jacobian(p, k), kPerEdge * norm(p[static_cast<std::size_t>(k)] - p[c])});
     }
     return worst;
   }
 
   BlockTemplate& block_;
   unsigned ends_;
-  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> corners_;  // per node: hexes and which corner it is
-  std::vector<std::vector<std::uint16_t>> neighbours_;                     // along edges
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>>
+      corners_;                                         // per node: hexes and which corner it is
+  std::vector<std::vector<std::uint16_t>> neighbours_;  // along edges
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
-// The templates of all blocks met so far: each pattern is cut once. One store per process; looked up by one thread.
+// The templates of all blocks met so far: each pattern is cut once. One store per process; looked up by one
+// thread.
 #include "adapt/block_template.hpp"
 
 namespace sculpt {

@@ -439,8 +439,10 @@ constexpr OptionSpec kAdaptOptions[] = {
      .group = kA,
      .slot = &Deck::adapt_type,
      .help = "Criterion of refinement",
-     .about = "What decides where cells are split or kept. Distances (1 to 3) are those of the geometry and the plane that "
-              "stands for it in a cell; vfrac_average looks at the fractions of the eight parts of a cell, coarsen at those of "
+     .about = "What decides where cells are split or kept. Distances (1 to 3) are those of the geometry and "
+              "the plane that "
+              "stands for it in a cell; vfrac_average looks at the fractions of the eight parts of a cell, "
+              "coarsen at those of "
               "dense data; material refines what adapt_material names.",
      .supported = true,
      .values = kAdaptTypes},
@@ -449,7 +451,8 @@ constexpr OptionSpec kAdaptOptions[] = {
      .group = kA,
      .slot = &Deck::adapt_threshold,
      .help = "Threshold of adapt_type",
-     .about = "A cell is split when its measure is larger: a length for the types 1 to 3 (0.25 cells / adapt_levels^2), a "
+     .about = "A cell is split when its measure is larger: a length for the types 1 to 3 (0.25 cells / "
+              "adapt_levels^2), a "
               "difference of volume fractions for the others (0.0001).",
      .supported = true,
      .lo = 0,
@@ -468,9 +471,9 @@ constexpr OptionSpec kAdaptOptions[] = {
      .group = kA,
      .slot = &Deck::adapt_material,
      .help = "Material to refine",
-     .about =
-         "Id, levels, threshold of the volume fraction, distance and one more number without effect; one line per material. "
-         "All but the id may be left out.",
+     .about = "Id, levels, threshold of the volume fraction, distance and one more number without effect; "
+              "one line per material. "
+              "All but the id may be left out.",
      .supported = true,
      .unset = "none"},
     {.name = "adapt_remainder",
@@ -478,7 +481,8 @@ constexpr OptionSpec kAdaptOptions[] = {
      .group = kA,
      .slot = &Deck::adapt_remainder,
      .help = "What becomes of odd cells when coarsening",
-     .about = "Dense data whose cells are not a multiple of 2^adapt_levels: the rest at the high sides is dropped, or the "
+     .about = "Dense data whose cells are not a multiple of 2^adapt_levels: the rest at the high sides is "
+              "dropped, or the "
               "grid is filled up with copies of the last layer (pad). An option of this program.",
      .supported = true,
      .values = kRemainders},

@@ -32,8 +32,8 @@ class Bisection {
     std::int64_t total = 0;
     for (const std::int64_t w : layer) total += w;
     // The first layer at which the part before it is nearest to its share.
-    const double wanted = static_cast<double>(total) * static_cast<double>(middle - first) /
-                          static_cast<double>(last - first);
+    const double wanted =
+        static_cast<double>(total) * static_cast<double>(middle - first) / static_cast<double>(last - first);
     std::int64_t before = layer[0], best = 1;
     double off = std::abs(static_cast<double>(before) - wanted);
     for (std::int64_t at = 2; at < box.extent(axis); ++at) {
@@ -53,7 +53,8 @@ class Bisection {
     std::vector<std::int64_t> sum(static_cast<std::size_t>(box.extent(axis)), 0);
     for (std::int64_t b = 0; b < box.size(); ++b) {
       const Index3 block = box.cell(b);
-      sum[static_cast<std::size_t>(block[axis] - box.lo[axis])] += weight_[static_cast<std::size_t>(all_.position(block))];
+      sum[static_cast<std::size_t>(block[axis] - box.lo[axis])] +=
+          weight_[static_cast<std::size_t>(all_.position(block))];
     }
     return sum;
   }

@@ -43,8 +43,8 @@ void Comm::sum(std::span<std::int64_t> values) const {
 void Comm::bit_or(std::span<std::uint64_t> values) const {
   constexpr std::size_t kPiece = std::size_t{1} << 24;  // counts of MPI are 32 bits wide
   for (std::size_t at = 0; at < values.size(); at += kPiece)
-    MPI_Allreduce(MPI_IN_PLACE, values.data() + at, static_cast<int>(std::min(kPiece, values.size() - at)), MPI_UINT64_T,
-                  MPI_BOR, comm_);
+    MPI_Allreduce(MPI_IN_PLACE, values.data() + at, static_cast<int>(std::min(kPiece, values.size() - at)),
+                  MPI_UINT64_T, MPI_BOR, comm_);
 }
 
 std::int64_t Comm::exclusive_sum(std::int64_t value) const {

@@ -18,9 +18,11 @@ namespace sculpt {
 namespace {
 
 constexpr double kFractionThreshold = 1e-4;  // of vfrac_average, coarsen and material: any interface
-constexpr double kLengthThreshold = 0.25;    // of the types that measure distances: of the cell size / levels^2
+constexpr double kLengthThreshold = 0.25;  // of the types that measure distances: of the cell size / levels^2
 
-bool coarsens(const Deck& deck) { return deck.adapt_type == kAdaptCoarsen || deck.adapt_type == kAdaptResample; }
+bool coarsens(const Deck& deck) {
+  return deck.adapt_type == kAdaptCoarsen || deck.adapt_type == kAdaptResample;
+}
 
 const char* type_name(const Deck& deck) {
   for (const EnumValue& value : find_option("adapt_type")->values)
@@ -37,9 +39,10 @@ Grid coarse_grid(const Deck& deck, const Grid& dense, const Log& log) {
     const std::int64_t n = dense.cells[d], over = n % step;
     grid.cells[d] = n / step + (deck.adapt_remainder == kRemainderPad && over > 0 ? 1 : 0);
     if (grid.cells[d] == 0)
-      throw Error(fmt::format("option 'adapt_levels' ({}): {} cells along {} cannot be halved {} times; give fewer levels or "
-                              "adapt_remainder = pad",
-                              deck.given_options.place("adapt_levels"), n, "xyz"[d], deck.adapt_levels));
+      throw Error(fmt::format(
+          "option 'adapt_levels' ({}): {} cells along {} cannot be halved {} times; give fewer levels or "
+          "adapt_remainder = pad",
+          deck.given_options.place("adapt_levels"), n, "xyz"[d], deck.adapt_levels));
     if (over > 0)
       rest += fmt::format("{}{} of {} cells along {}", rest.empty() ? "" : ", ",
                           deck.adapt_remainder == kRemainderPad ? step - over : over, n, "xyz"[d]);
@@ -51,12 +54,14 @@ Grid coarse_grid(const Deck& deck, const Grid& dense, const Log& log) {
     }
   }
   if (!rest.empty() && deck.adapt_remainder == kRemainderPad)
-    log.line("{}: the grid is not a multiple of {} cells; copies of the last layers fill it up: {}", type_name(deck), step,
-             rest);
-  else if (!rest.empty())
-    log.line("WARNING: {}: the grid is not a multiple of {} cells; dropped at the high sides: {} (adapt_remainder = pad "
-             "keeps them)",
+    log.line("{}: the grid is not a multiple of {} cells; copies of the last layers fill it up: {}",
              type_name(deck), step, rest);
+  else if (!rest.empty())
+    log.line(
+        "WARNING: {}: the grid is not a multiple of {} cells; dropped at the high sides: {} (adapt_remainder "
+        "= pad "
+        "keeps them)",
+        type_name(deck), step, rest);
   return grid;
 }
 
@@ -75,7 +80,8 @@ IndexBox wanted_of(const Grid& grid, const Grid& source, const IndexBox& cells, 
     hi = std::min(hi, grid.cells[d]);
     // Cells of the source that overlap it, and one more for rounding; beyond its ends the outermost count.
     const std::vector<double>& planes = source.planes[d];
-    const double from = grid.planes[d][static_cast<std::size_t>(lo)], to = grid.planes[d][static_cast<std::size_t>(hi)];
+    const double from = grid.planes[d][static_cast<std::size_t>(lo)],
+                 to = grid.planes[d][static_cast<std::size_t>(hi)];
     const auto first = std::upper_bound(planes.begin(), planes.end(), from) - planes.begin() - 2;
     const auto last = std::lower_bound(planes.begin(), planes.end(), to) - planes.begin() + 1;
     box.lo[d] = std::clamp<std::int64_t>(first, 0, source.cells[d] - 1);
@@ -103,7 +109,8 @@ struct Material {
 
 class Adapter {
  public:
-  Adapter(const Comm& comm, const Deck& deck, MaterialSource& source, Grid grid, const Log& log, Stages& stages)
+  Adapter(const Comm& comm, const Deck& deck, MaterialSource& source, Grid grid, const Log& log,
+          Stages& stages)
       : comm_(comm),
         deck_(deck),
         source_(source),
@@ -117,7 +124,8 @@ class Adapter {
   Overlay refined() {
     AdaptCriterion criterion = criterion_of();
     Forest forest(grid_.cells, levels_, periodic_);
-    const CartesianParts cut = cut_grid(forest.blocks(0), comm_.size(), {deck_.iproc, deck_.jproc, deck_.kproc});
+    const CartesianParts cut =
+        cut_grid(forest.blocks(0), comm_.size(), {deck_.iproc, deck_.jproc, deck_.kproc});
     print_decomposition(log_, cut);
     BlockParts parts = block_parts(cut, comm_.size());
     Material material = read(parts);
@@ -154,7 +162,8 @@ class Adapter {
     collectively(comm_, "resampling", [&] {
       for (LocalId c = 0; c < out.cells.size(); ++c) {
         const Hex& hex = out.cells.hexes[at(c)];
-        material.field->measure({out.cells.position[at(hex[0])], out.cells.position[at(hex[6])]}, out.fractions);
+        material.field->measure({out.cells.position[at(hex[0])], out.cells.position[at(hex[6])]},
+                                out.fractions);
       }
     });
     stages_.end("distribute");
@@ -187,16 +196,20 @@ class Adapter {
         return c;
     }
     if (c.measure == AdaptMeasure::kMaterial) return c;
-    if (deck_.adapt_threshold < 0) c.threshold = kLengthThreshold * std::min({h.x, h.y, h.z}) / (levels_ * levels_);
+    if (deck_.adapt_threshold < 0)
+      c.threshold = kLengthThreshold * std::min({h.x, h.y, h.z}) / (levels_ * levels_);
     c.exact = source_.exact_surface();
     if (!c.exact && c.measure != AdaptMeasure::kSurfaceToSurface)
-      throw Error(fmt::format("option 'adapt_type' ({}): {} measures the distance from facets or shapes, but the input has "
-                              "none; use surface_to_surface or vfrac_average",
-                              deck_.given_options.place("adapt_type"), type_name(deck_)));
+      throw Error(fmt::format(
+          "option 'adapt_type' ({}): {} measures the distance from facets or shapes, but the input has "
+          "none; use surface_to_surface or vfrac_average",
+          deck_.given_options.place("adapt_type"), type_name(deck_)));
     if (source_.is_data())
-      log_.line("WARNING: {}: the input is data on the cells of the grid, which has no finer surface; nothing is refined but "
-                "with vfrac_average or material",
-                type_name(deck_));
+      log_.line(
+          "WARNING: {}: the input is data on the cells of the grid, which has no finer surface; nothing is "
+          "refined but "
+          "with vfrac_average or material",
+          type_name(deck_));
     return c;
   }
 
@@ -211,8 +224,8 @@ class Adapter {
         throw Error(fmt::format("option 'adapt_material' ({}): no material with id {} in the input",
                                 deck_.given_options.place("adapt_material"), n[0]));
       c.materials.push_back({static_cast<std::int32_t>(found - table.block_id.begin()),
-                             n.size() > 1 ? static_cast<int>(n[1]) : deck_.adapt_levels, n.size() > 2 ? n[2] : kFractionThreshold,
-                             n.size() > 3 ? n[3] : 0.0});
+                             n.size() > 1 ? static_cast<int>(n[1]) : deck_.adapt_levels,
+                             n.size() > 2 ? n[2] : kFractionThreshold, n.size() > 3 ? n[3] : 0.0});
     }
     if (c.materials.empty())
       log_.line("WARNING: adapt_type = material without adapt_material refines nothing");
@@ -252,8 +265,9 @@ class Adapter {
 
   void tell(Forest& forest, std::int64_t asked) const {
     const std::int64_t all = count_refined(forest);
-    log_.line("adapting the grid: {} blocks of 2 x 2 x 2 cells to be refined, {} more so that the mesh conforms", asked,
-              all - asked);
+    log_.line(
+        "adapting the grid: {} blocks of 2 x 2 x 2 cells to be refined, {} more so that the mesh conforms",
+        asked, all - asked);
   }
 
   BlockParts rebalanced(const Forest& forest) const {
@@ -276,7 +290,8 @@ class Adapter {
   }
   Overlay overlay(LeafMesh mesh, Material& material) const {
     Fractions owned;
-    collectively(comm_, "measuring the refined cells", [&] { owned = leaf_fractions(grid_, mesh, *material.field); });
+    collectively(comm_, "measuring the refined cells",
+                 [&] { owned = leaf_fractions(grid_, mesh, *material.field); });
     Overlay out = start(std::move(mesh.cells), material);
     out.fractions = with_ghosts(out.cells, owned);
     stages_.end("measure refined cells");
@@ -295,12 +310,13 @@ class Adapter {
 
 }  // namespace
 
-Overlay read_adapted(const Comm& comm, const Deck& deck, MaterialSource& source, const Grid& grid, const Log& log,
-                     Stages& stages) {
+Overlay read_adapted(const Comm& comm, const Deck& deck, MaterialSource& source, const Grid& grid,
+                     const Log& log, Stages& stages) {
   if (!coarsens(deck)) return Adapter(comm, deck, source, grid, log, stages).refined();
   if (!source.is_data())
-    throw Error(fmt::format("option 'adapt_type' ({}): {} needs data on a dense grid; shapes are refined by vfrac_average",
-                            deck.given_options.place("adapt_type"), type_name(deck)));
+    throw Error(fmt::format(
+        "option 'adapt_type' ({}): {} needs data on a dense grid; shapes are refined by vfrac_average",
+        deck.given_options.place("adapt_type"), type_name(deck)));
   Adapter adapter(comm, deck, source, coarse_grid(deck, grid, log), log, stages);
   return deck.adapt_type == kAdaptCoarsen ? adapter.refined() : adapter.resampled();
 }

@@ -9,7 +9,7 @@ namespace sculpt {
 }
 
 // Collective. `grid`: that of the source with the expansion layers around it.
-[[nodiscard]] Overlay read_adapted(const Comm& comm, const Deck& deck, MaterialSource& source, const Grid& grid,
-                                   const Log& log, Stages& stages);
+[[nodiscard]] Overlay read_adapted(const Comm& comm, const Deck& deck, MaterialSource& source,
+                                   const Grid& grid, const Log& log, Stages& stages);
 
 }  // namespace sculpt

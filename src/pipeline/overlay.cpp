@@ -23,8 +23,8 @@ Grid overlay_grid(const Deck& deck, const Grid& source) {
 }
 
 // The cells of the grid as they are.
-Overlay read_uniform(const Comm& comm, const Deck& deck, MaterialSource& source, const Grid& grid, const Log& log,
-                     Stages& stages) {
+Overlay read_uniform(const Comm& comm, const Deck& deck, MaterialSource& source, const Grid& grid,
+                     const Log& log, Stages& stages) {
   const CartesianParts parts = cut_grid(grid.cells, comm.size(), {deck.iproc, deck.jproc, deck.kproc});
   print_decomposition(log, parts);
   const int layers = layer_plan(deck).ghost_layers();

@@ -1,6 +1,6 @@
 #pragma once
-// The overlay mesh that a run starts from: the grid of the input, refined, coarsened or as it is, with the volume
-// fractions of its cells.
+// The overlay mesh that a run starts from: the grid of the input, refined, coarsened or as it is, with the
+// volume fractions of its cells.
 #include <optional>
 
 #include "sculpt/base/log.hpp"

@@ -39,7 +39,8 @@ Fractions expand_fractions(const Fractions& data, const IndexBox& source_box, co
 
 Fractions with_ghosts(const HexMesh& cells, const Fractions& owned) {
   using G = GhostExchange;
-  std::vector<std::size_t> place(cells.hexes.size());  // of an owned cell in its list, of a ghost in `received`
+  std::vector<std::size_t> place(
+      cells.hexes.size());  // of an owned cell in its list, of a ghost in `received`
   std::size_t next = 0;
   for (std::size_t c = 0; c < place.size(); ++c)
     if (cells.layer[c] == 0) place[c] = next++;
@@ -71,7 +72,8 @@ Fractions with_ghosts(const HexMesh& cells, const Fractions& owned) {
   all.reserve(place.size(), owned.material.size() + received.material.size());
   for (std::size_t c = 0; c < place.size(); ++c) {
     const Fractions& from = cells.layer[c] == 0 ? owned : received;
-    for (auto e = static_cast<std::size_t>(from.offset[place[c]]); e < static_cast<std::size_t>(from.offset[place[c] + 1]); ++e)
+    for (auto e = static_cast<std::size_t>(from.offset[place[c]]);
+         e < static_cast<std::size_t>(from.offset[place[c] + 1]); ++e)
       all.add(from.material[e], from.value[e]);
     all.end_cell();
   }

@@ -9,7 +9,8 @@
 namespace sculpt {
 
 enum class AdaptMeasure {
-  kFractions,         // the fractions of the eight parts of a cell differ from their average, or from those just outside
+  kFractions,  // the fractions of the eight parts of a cell differ from their average, or from those just
+               // outside
   kFacetToSurface,    // distance of the geometry from the plane that stands for it in the cell
   kSurfaceToFacet,    // distance of that plane from the geometry
   kSurfaceToSurface,  // distance of the planes in the parts of the cell from its plane
@@ -30,9 +31,9 @@ struct AdaptCriterion {
   ExactSurface exact;               // of kFacetToSurface and kSurfaceToFacet
 };
 
-// Marks the cells of a part of the grid that the criterion asks for, and their parts in turn. The field must know the
-// cells, one cell of the grid around them, and what the distances of the materials reach.
-void mark_cells(const Grid& grid, const IndexBox& cells, MaterialField& field, const AdaptCriterion& criterion,
-                Forest& forest);
+// Marks the cells of a part of the grid that the criterion asks for, and their parts in turn. The field must
+// know the cells, one cell of the grid around them, and what the distances of the materials reach.
+void mark_cells(const Grid& grid, const IndexBox& cells, MaterialField& field,
+                const AdaptCriterion& criterion, Forest& forest);
 
 }  // namespace sculpt

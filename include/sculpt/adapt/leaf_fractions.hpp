@@ -5,8 +5,8 @@
 
 namespace sculpt {
 
-// Local. Fractions of the owned cells, in their order: cubes as they are, hexes of transitions by sampling. The field must
-// know the blocks of this rank.
+// Local. Fractions of the owned cells, in their order: cubes as they are, hexes of transitions by sampling.
+// The field must know the blocks of this rank.
 [[nodiscard]] Fractions leaf_fractions(const Grid& grid, const LeafMesh& mesh, MaterialField& field);
 
 }  // namespace sculpt

@@ -1,6 +1,6 @@
 #pragma once
-// Who owns which blocks of a refined grid: blocks of 2x2x2 cells of the overlay grid, with everything that they were
-// refined into. The same on every rank.
+// Who owns which blocks of a refined grid: blocks of 2x2x2 cells of the overlay grid, with everything that
+// they were refined into. The same on every rank.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,8 +22,9 @@ struct BlockParts {
 // Local. The boxes of a cut of the blocks.
 [[nodiscard]] BlockParts block_parts(const CartesianParts& parts, int ranks);
 
-// Local. Boxes of nearly equal weight by recursive bisection: across the longest axis, ties to the lowest; a box that
-// cannot be cut any more leaves the other ranks without one. weight: per block, x fastest.
-[[nodiscard]] BlockParts balanced_parts(const Index3& blocks, std::span<const std::int64_t> weight, int ranks);
+// Local. Boxes of nearly equal weight by recursive bisection: across the longest axis, ties to the lowest; a
+// box that cannot be cut any more leaves the other ranks without one. weight: per block, x fastest.
+[[nodiscard]] BlockParts balanced_parts(const Index3& blocks, std::span<const std::int64_t> weight,
+                                        int ranks);
 
 }  // namespace sculpt

@@ -61,8 +61,8 @@ TEST(BlockTemplate, BesideOneRefinedFaceTheNearCellsAreCut) {
   EXPECT_EQ(on_face, 16);  // 2x2 coarse quads, each cut into four
 }
 
-// Every pattern there is: the volume is exact, every face is shared by two hexes or lies on the surface, positions on the
-// surface tell nodes apart, and no hex has two faces on one side.
+// Every pattern there is: the volume is exact, every face is shared by two hexes or lies on the surface,
+// positions on the surface tell nodes apart, and no hex has two faces on one side.
 TEST(BlockTemplate, EveryPatternIsAValidSubdivisionOrNone) {
   int valid = 0, none = 0;
   for (BlockPattern p = 0; p < 1U << kBlockNeighbours; ++p) {

@@ -105,7 +105,8 @@ TEST(LeafMesh, RandomCellsOfSeveralLevels) {
       const IndexBox box = whole(forest.cells(l));
       const double share = l == levels - 1 ? 0.02 : 0.0;
       for (std::int64_t c = 0; c < box.size(); ++c)
-        if (test::scatter_unit(seed, static_cast<std::uint64_t>(c)) < share) forest.refine_cell(l, box.cell(c));
+        if (test::scatter_unit(seed, static_cast<std::uint64_t>(c)) < share)
+          forest.refine_cell(l, box.cell(c));
     }
     forest.close();
     ASSERT_EQ(problem(forest), "") << "seed " << seed;

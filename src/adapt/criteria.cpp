@@ -162,22 +162,29 @@ class Marker {
     return false;
   }
 
-  // Interfaces may run between cells.
+  // Interfaces may run between cells: what lies just inside a side, an edge or a corner is compared with what
+  // lies just outside.
   [[nodiscard]] bool differs_from_outside(int level, const Index3& cell, const Box& box,
                                           const Vec3& thickness) {
-    clear(scratch_);
-    field_.measure(box, scratch_);
-    std::size_t count = 1;
     for (int o = 0; o < 27; ++o) {
       const std::array<int, 3> side{o % 3 - 1, o / 3 % 3 - 1, o / 9 - 1};
       if (o == 13 || !in_grid(level, {cell[0] + side[0], cell[1] + side[1], cell[2] + side[2]})) continue;
-      Box beside = box;
+      Box inside = box, outside = box;
       for (std::size_t d = 0; d < 3; ++d) {
-        if (side[d] < 0) beside.hi[d] = box.lo[d], beside.lo[d] = box.lo[d] - thickness[d];
-        if (side[d] > 0) beside.lo[d] = box.hi[d], beside.hi[d] = box.hi[d] + thickness[d];
+        if (side[d] < 0) {
+          inside.hi[d] = box.lo[d] + thickness[d];
+          outside.hi[d] = box.lo[d];
+          outside.lo[d] = box.lo[d] - thickness[d];
+        } else if (side[d] > 0) {
+          inside.lo[d] = box.hi[d] - thickness[d];
+          outside.lo[d] = box.hi[d];
+          outside.hi[d] = box.hi[d] + thickness[d];
+        }
       }
-      field_.measure(beside, scratch_);
-      if (difference(scratch_, 0, count++) > criterion_.threshold) return true;
+      clear(scratch_);
+      field_.measure(inside, scratch_);
+      field_.measure(outside, scratch_);
+      if (difference(scratch_, 0, 1) > criterion_.threshold) return true;
     }
     return false;
   }

@@ -18,6 +18,7 @@ namespace sculpt {
 namespace {
 
 constexpr double kFractionThreshold = 1e-4;  // of vfrac_average, coarsen and material: any interface
+constexpr double kMostBlocks = 0x1p34;  // of the finest level but one: 2 GB
 constexpr double kLengthThreshold = 0.25;  // of the types that measure distances: of the cell size / levels^2
 
 bool coarsens(const Deck& deck) {
@@ -123,6 +124,7 @@ class Adapter {
 
   Overlay refined() {
     AdaptCriterion criterion = criterion_of();
+    refuse_many_blocks();
     Forest forest(grid_.cells, levels_, periodic_);
     const CartesianParts cut =
         cut_grid(forest.blocks(0), comm_.size(), {deck_.iproc, deck_.jproc, deck_.kproc});
@@ -213,6 +215,17 @@ class Adapter {
     return c;
   }
 
+  // Every rank holds a bit for every block that there could be.
+  void refuse_many_blocks() const {
+    const double blocks = std::ldexp(static_cast<double>(grid_.cell_count()), 3 * levels_ - 6);
+    if (blocks <= kMostBlocks) return;
+    throw Error(fmt::format(
+        "option 'adapt_levels' ({}): the {} x {} x {} cells of the grid cannot be halved {} times, it would "
+        "take {:.3g} GB on every rank to keep track; give fewer levels or a coarser grid",
+        deck_.given_options.place("adapt_levels"), grid_.cells[0], grid_.cells[1], grid_.cells[2], levels_,
+        blocks / 7e9));
+  }
+
   // The records of adapt_material, now that the materials are known.
   void name_materials(AdaptCriterion& c, const MaterialTable& table) {
     if (c.measure != AdaptMeasure::kMaterial) return;
@@ -238,7 +251,8 @@ class Adapter {
     if (deck_.adapt_type == kAdaptMaterial)
       for (const NumberRecord& record : deck_.adapt_material)
         if (record.numbers.size() > 3) reach = std::max(reach, record.numbers[3] / std::min({h.x, h.y, h.z}));
-    return 2 + static_cast<std::int64_t>(std::ceil(reach));
+    const std::int64_t all = std::max({grid_.cells[0], grid_.cells[1], grid_.cells[2]});
+    return 2 + static_cast<std::int64_t>(std::ceil(std::min(reach, static_cast<double>(all))));
   }
 
   Material read(const BlockParts& parts) {

@@ -236,32 +236,31 @@ class Marker {
     return most;
   }
 
+  // Where the two materials with most of the box share it, across the direction in which they change. A box
+  // twice as large tells that direction: in one of which a corner is cut off, its own parts tell little.
   [[nodiscard]] Cut cut_of(const Box& box) {
     clear(scratch_);
-    for (unsigned o = 0; o < 8; ++o) field_.measure(octant(box, o), scratch_);
+    field_.measure(box, scratch_);
     Cut cut;
-    std::vector<std::pair<double, std::int32_t>> total;
-    for (std::size_t e = 0; e < scratch_.material.size(); ++e) {
-      const std::int32_t m = scratch_.material[e];
-      const auto known =
-          std::find_if(total.begin(), total.end(), [m](const auto& t) { return t.second == m; });
-      if (known == total.end())
-        total.emplace_back(-scratch_.value[e], m);
-      else
-        known->first -= scratch_.value[e];
-    }
-    if (total.size() < 2) return cut;
-    std::sort(total.begin(), total.end());  // most first, ties by material
-    cut.a = total[0].second;
-    cut.b = total[1].second;
+    if (scratch_.material.size() < 2) return cut;
+    std::vector<std::pair<double, std::int32_t>> most;
+    for (std::size_t e = 0; e < scratch_.material.size(); ++e)
+      most.emplace_back(-scratch_.value[e], scratch_.material[e]);
+    std::sort(most.begin(), most.end());  // ties by material
+    cut.a = most[0].second;
+    cut.b = most[1].second;
+    const Vec3 size = box.hi - box.lo;
+    const Box around = grown(box, 0.5 * size);
+    clear(scratch_);
+    for (unsigned o = 0; o < 8; ++o) field_.measure(octant(around, o), scratch_);
     Vec3 slope;  // of a - b, per cell
     for (unsigned o = 0; o < 8; ++o)
       for (std::size_t d = 0; d < 3; ++d)
         slope[d] +=
             (o >> d & 1 ? 0.25 : -0.25) * (share_of(scratch_, o, cut.a) - share_of(scratch_, o, cut.b));
     if (!(norm(slope) > 0)) return cut;
-    const Vec3 size = box.hi - box.lo, down = unit(-slope);  // from a to b, in cells
-    const double share = total[0].first / (total[0].first + total[1].first);
+    const Vec3 down = unit(-slope);  // from a to b, in cells
+    const double share = most[0].first / (most[0].first + most[1].first);
     cut.point = 0.5 * (box.lo + box.hi) + scaled(plane_offset(share, down) * down, size);
     cut.normal = unit(scaled(down, {1 / size.x, 1 / size.y, 1 / size.z}));
     cut.exists = true;

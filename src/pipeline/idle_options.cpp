@@ -58,9 +58,7 @@ std::vector<std::string> idle_adapt_options(const Deck& deck) {
     else
       idle += fmt::format("{}{}", idle.empty() ? "" : ", ", use.option);
   }
-  if (!idle.empty())
-    told.push_back(fmt::format("adapt_type is {}; no effect: {}", 
-                               type_name(deck), idle));
+  if (!idle.empty()) told.push_back(fmt::format("adapt_type is {}; no effect: {}", type_name(deck), idle));
   return told;
 }
 

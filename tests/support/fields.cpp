@@ -37,9 +37,8 @@ class TwoMaterials final : public MaterialField {
 Grid unit_grid(const Index3& cells) { return uniform_grid(cells, {0, 0, 0}, {1, 1, 1}); }
 
 std::unique_ptr<MaterialField> half_space_field(std::size_t axis, double at) {
-  return std::make_unique<TwoMaterials>([=](const Box& b) {
-    return std::clamp((b.hi[axis] - at) / (b.hi[axis] - b.lo[axis]), 0.0, 1.0);
-  });
+  return std::make_unique<TwoMaterials>(
+      [=](const Box& b) { return std::clamp((b.hi[axis] - at) / (b.hi[axis] - b.lo[axis]), 0.0, 1.0); });
 }
 
 std::unique_ptr<MaterialField> half_space_field(const Vec3& normal, double distance) {
@@ -50,8 +49,7 @@ std::unique_ptr<MaterialField> half_space_field(const Vec3& normal, double dista
 
 std::unique_ptr<MaterialField> balls_field(const Grid& grid, const std::vector<Ball>& balls) {
   auto shapes = std::make_shared<std::vector<InsertedShape>>();
-  for (const Ball& b : balls)
-    shapes->push_back({std::make_unique<Sphere>(b.centre, b.radius), b.material});
+  for (const Ball& b : balls) shapes->push_back({std::make_unique<Sphere>(b.centre, b.radius), b.material});
   return shape_field(shapes, grid, 0);
 }
 

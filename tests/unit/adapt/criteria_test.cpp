@@ -61,8 +61,7 @@ double parts_differ(MaterialField& field, const Box& box) {
   double mean = 0, most = 0;
   for (unsigned o = 0; o < 8; ++o) {
     Box b = box;
-    for (std::size_t d = 0; d < 3; ++d)
-      (o >> d & 1 ? b.lo[d] : b.hi[d]) = 0.5 * (box.lo[d] + box.hi[d]);
+    for (std::size_t d = 0; d < 3; ++d) (o >> d & 1 ? b.lo[d] : b.hi[d]) = 0.5 * (box.lo[d] + box.hi[d]);
     part[o] = share_in(field, b, 1);
     mean += 0.125 * part[o];
   }
@@ -101,9 +100,8 @@ TEST(FractionsCriterion, RefinesBothSidesOfFacesOfCells) {
 // Cells that touch along an edge or at a corner only.
 TEST(FractionsCriterion, RefinesAroundEdgesAndCorners) {
   const auto with_corner = [](std::int64_t k) {
-    return voxels("corner", {8, 8, 8}, 2, [k](const Index3& c) {
-      return c[0] < 4 && c[1] < 4 && c[2] < k ? 1 : 0;
-    });
+    return voxels("corner", {8, 8, 8}, 2,
+                  [k](const Index3& c) { return c[0] < 4 && c[1] < 4 && c[2] < k ? 1 : 0; });
   };
   const Grid grid = unit_grid({8, 8, 8});
   const auto edge = data_field_of(with_corner(8)), corner = data_field_of(with_corner(4));
@@ -178,7 +176,8 @@ TEST(FractionsCriterion, CoarsensDenseData) {
         Index3 other = voxel;
         other[d] += way;
         const auto inside = [](const Index3& v) { return v[0] < 5 && v[1] < 5 && v[2] < 5; };
-        at_interface = at_interface || (whole(dense.grid.cells).contains(other) && inside(voxel) != inside(other));
+        at_interface =
+            at_interface || (whole(dense.grid.cells).contains(other) && inside(voxel) != inside(other));
       }
     if (at_interface)
       EXPECT_TRUE(forest.refined(1, {voxel[0] / 4, voxel[1] / 4, voxel[2] / 4})) << "voxel " << c;
@@ -227,8 +226,8 @@ TEST(MaterialCriterion, ReachesAsFarAsTheDistance) {
 
 TEST(MaterialCriterion, EachMaterialHasItsLevels) {
   const Grid grid = unit_grid({12, 4, 4});
-  const Case data = voxels("three", {12, 4, 4}, 3,
-                           [](const Index3& c) { return static_cast<std::int32_t>(c[0] / 4); });
+  const Case data =
+      voxels("three", {12, 4, 4}, 3, [](const Index3& c) { return static_cast<std::int32_t>(c[0] / 4); });
   const auto field = data_field_of(data);
   const Forest f = asked(grid, 3, *field, materials({{0, 1, 0, 0}, {2, 2, 0, 0}}));
   EXPECT_EQ(refined_blocks(f, 0), layers(f, {0, 1, 4, 5}));
@@ -292,8 +291,8 @@ TEST(DistanceCriteria, RefineWhereTheSurfaceIsCurved) {
   for (const AdaptMeasure measure : kDistances) {
     const auto [all_large, all_small] = two.refined(measure, 0);
     EXPECT_GT(all_large, 4 * all_small) << "every cell at the surface counts";
-    // The plane of a cell misses a ball of radius 5 by about 1 / 40 cells, one of radius 1.7 by three times as
-    // much.
+    // The plane of a cell misses a ball of radius 5 by about 1 / 40 cells, one of radius 1.7 by three times
+    // as much.
     bool small_alone = false;
     std::pair<std::size_t, std::size_t> before{1000, 1000};
     for (const double threshold : {0.01, 0.03, 0.045, 0.06, 0.08, 0.15, 2.0}) {

@@ -168,9 +168,8 @@ TEST(Validate, AdaptMaterialRecordsMakeSense) {
   EXPECT_EQ(verdict(type + "1.5 2"),
             begin + "1.5 2): the id must be a whole number from 0 to 2147483647, found 1.5");
   for (const char* levels : {"-1", "21", "1.5"})
-    EXPECT_EQ(verdict(type + "3 " + levels), begin + "3 " + levels +
-                                                 "): the levels must be a whole number from 0 to 20, found " +
-                                                 levels);
+    EXPECT_EQ(verdict(type + "3 " + levels),
+              begin + "3 " + levels + "): the levels must be a whole number from 0 to 20, found " + levels);
   for (const char* fraction : {"-0.1", "1.1"})
     EXPECT_EQ(verdict(type + "3 2 " + fraction), begin + "3 2 " + fraction +
                                                      "): the volume fraction must be a number from 0 to 1, "
@@ -179,8 +178,9 @@ TEST(Validate, AdaptMaterialRecordsMakeSense) {
   EXPECT_EQ(verdict(type + "3 2 0 -1"),
             begin + "3 2 0 -1): the distance must be a length that is not negative, found -1");
   EXPECT_EQ(verdict(type + "3 2 0 1 0 9"),
-            begin + "3 2 0 1 0 9) has 6 numbers; expected at most 5: id, levels, volume fraction, distance "
-                    "and one without effect");
+            begin +
+                "3 2 0 1 0 9) has 6 numbers; expected at most 5: id, levels, volume fraction, distance "
+                "and one without effect");
   EXPECT_EQ(verdict(type + "3\nadapt_material = 4 77"),
             "option 'adapt_material' (line 8 of deck.i): record 2 (4 77): the levels must be a whole number "
             "from 0 to 20, found 77");

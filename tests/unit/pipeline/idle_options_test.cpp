@@ -30,8 +30,8 @@ TEST(IdleAdaptOptions, WithoutAType) {
 TEST(IdleAdaptOptions, OfEachType) {
   const auto of = [](const char* type) { return told(kAll + "adapt_type = " + type); };
   for (const char* type : {"facet_to_surface", "surface_to_facet", "surface_to_surface", "vfrac_average"})
-    EXPECT_EQ(of(type), Told{std::string("adapt_type is ") + type +
-                             "; no effect: adapt_material, adapt_remainder"});
+    EXPECT_EQ(of(type),
+              Told{std::string("adapt_type is ") + type + "; no effect: adapt_material, adapt_remainder"});
   EXPECT_EQ(of("coarsen"), Told{"adapt_type is coarsen; no effect: adapt_material"});
   EXPECT_EQ(of("resample"), Told{"adapt_type is resample; no effect: adapt_threshold, adapt_material, "
                                  "adapt_non_manifold, adapt_load_balance"});

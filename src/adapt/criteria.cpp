@@ -192,16 +192,17 @@ class Marker {
   [[nodiscard]] bool holds_material(int level, const Box& box) {
     for (const AdaptCriterion::Material& m : criterion_.materials) {
       if (level >= m.levels) continue;
-      const Box reach = inside_domain(grown(box, {m.distance, m.distance, m.distance}));
-      if (const auto sole = field_.sole_material(reach)) {
-        if (*sole == m.material && 1 > m.fraction) return true;
-        continue;
-      }
-      clear(scratch_);
-      field_.measure(reach, scratch_);
-      if (share_of(scratch_, 0, m.material) > m.fraction) return true;
+      if (holds(box, m)) return true;
+      if (m.distance > 0 && holds(inside_domain(grown(box, {m.distance, m.distance, m.distance})), m))
+        return true;
     }
     return false;
+  }
+  [[nodiscard]] bool holds(const Box& box, const AdaptCriterion::Material& m) {
+    if (const auto sole = field_.sole_material(box)) return *sole == m.material && 1 > m.fraction;
+    clear(scratch_);
+    field_.measure(box, scratch_);
+    return share_of(scratch_, 0, m.material) > m.fraction;
   }
   [[nodiscard]] Box inside_domain(Box box) const {
     for (std::size_t d = 0; d < 3; ++d) {

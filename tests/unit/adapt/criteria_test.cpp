@@ -224,6 +224,16 @@ TEST(MaterialCriterion, ReachesAsFarAsTheDistance) {
   EXPECT_EQ(count(f, 0), 24U);
 }
 
+// A cell counts by itself as well where the larger box holds less of the material.
+TEST(MaterialCriterion, OfSmallThingsInALargeDistance) {
+  const Grid grid = unit_grid({12, 12, 12});
+  const auto field = balls_field(grid, {{{6, 6, 6}, 1.8, 1}});
+  const Forest near = asked(grid, 1, *field, materials({{1, 1, 0.9, 0}}));
+  const Forest far = asked(grid, 1, *field, materials({{1, 1, 0.9, 4}}));
+  EXPECT_GT(count(near, 0), 0U);
+  EXPECT_EQ(refined_blocks(far, 0), refined_blocks(near, 0));
+}
+
 TEST(MaterialCriterion, EachMaterialHasItsLevels) {
   const Grid grid = unit_grid({12, 4, 4});
   const Case data =

@@ -17,10 +17,11 @@ constexpr int kRaiseAttempts = 3, kUnfoldSweeps = 6, kLengthenSweeps = 6;
 constexpr double kShort = 0.06, kLongEnough = 0.1;  // edges, in cells
 constexpr int kAttempts = 3;                        // of all phases, each from another place
 constexpr double kFolded = 1e-6;                    // the quality that marks a folded hex is below this
-constexpr double kFar = 0.05;       // a move that makes the neighbours worth another visit, in cells
-constexpr double kMargin = 0.05;    // hexes this little above the target are raised as well
-constexpr double kGiveWay = 0.3;    // price of deviation from one round of the guarantee to the next
-constexpr double kNoPrice = 1e-5;   // of deviation: lowering it further changes nothing
+constexpr double kFar = 0.05;      // a move that makes the neighbours worth another visit: a length, whatever
+                                   // the cells are
+constexpr double kMargin = 0.05;   // hexes this little above the target are raised as well
+constexpr double kGiveWay = 0.3;   // price of deviation from one round of the guarantee to the next
+constexpr double kNoPrice = 1e-5;  // of deviation: lowering it further changes nothing
 constexpr double kLowPrice = 0.02;  // interface nodes may climb whatever the deviation
 constexpr int kFitRounds = 12;
 constexpr double kFitted = 0.002;  // distance from the geometry that is not worth a move, in cells

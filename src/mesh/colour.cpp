@@ -26,7 +26,7 @@ class Colouring {
                             [](std::uint8_t c) { return c < kFirstFreeColour || c == kNoColour; }),
             "preset colours are below 8");
     });
-    mesh.colour.assign(preset.begin(), preset.end());
+    if (preset.data() != mesh.colour.data()) mesh.colour.assign(preset.begin(), preset.end());
     turn_.assign(mesh.position.size(), 0);
     for (LocalId n = 0; n < mesh.nodes(); ++n) {
       if (mesh.colour[at(n)] != kNoColour) continue;

@@ -86,8 +86,12 @@ class Smoother {
     return growing ? Vec3{} : curve_wish(i);
   }
 
-  // Whether the curve is but the edge of one surface, on the box: it is smoothed as the surface is.
-  [[nodiscard]] bool ends_surface(std::size_t i) const { return faces_.node_quads[i].size() == 2; }
+  // Whether the curve is but the edge of one surface, on the box: it is smoothed as the surface is. Both its
+  // edges have one quad then, the others, which are all but two, have two, and every quad has two edges at
+  // the node.
+  [[nodiscard]] bool ends_surface(std::size_t i) const {
+    return faces_.node_quads[i].size() + 1 == faces_.neighbours[i].size();
+  }
 
   // The next node of the curve beyond b, coming from i; b itself at the end of the curve.
   [[nodiscard]] LocalId beyond(LocalId i, LocalId b) const {

@@ -126,9 +126,10 @@ std::int64_t ActiveSet::sweep(const std::function<bool(LocalId)>& step, double f
       ++moves;
       moved_.push_back(n);
       changed_[at(n)] = 1;
-      far_moved_[at(n)] = is_far(n, mesh_.position[at(n)] - before, far);
+      const Vec3 move = mesh_.position[at(n)] - before;
+      far_moved_[at(n)] = dot(move, move) > far * far;
     }
-    exchange_moves(far, static_cast<int>(colour));
+    exchange_moves(far * far, static_cast<int>(colour));
   }
   std::fill(near_.begin(), near_.end(), std::uint8_t{0});
   std::vector<LocalId> far_nodes;
@@ -152,7 +153,7 @@ void ActiveSet::fetch_ahead(LocalId hexes_of, LocalId positions_of) const {
     for (const LocalId n : mesh_.hexes[at(item / 8)]) __builtin_prefetch(&mesh_.position[at(n)]);
 }
 
-void ActiveSet::exchange_moves(double far, int colour) {
+void ActiveSet::exchange_moves(double far_squared, int colour) {
   using G = GhostExchange;
   mesh_.node_exchange.send_records(
       [&](LocalId n, std::vector<char>& bytes) {
@@ -162,7 +163,8 @@ void ActiveSet::exchange_moves(double far, int colour) {
       [&](LocalId ghost, const char* from) {
         const Vec3 before = mesh_.position[at(ghost)];
         G::take(from, mesh_.position[at(ghost)]);
-        far_moved_[at(ghost)] = is_far(ghost, mesh_.position[at(ghost)] - before, far);
+        const Vec3 move = mesh_.position[at(ghost)] - before;
+        far_moved_[at(ghost)] = dot(move, move) > far_squared;
         moved_.push_back(ghost);
         return from;
       });

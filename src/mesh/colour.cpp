@@ -21,10 +21,7 @@ class Colouring {
   Colouring(HexMesh& mesh, std::span<const std::uint8_t> preset)
       : mesh_(mesh), comm_(mesh.node_exchange.comm()), news_(mesh.position.size(), 0) {
     collectively(comm_, "colouring nodes", [&] {
-      check(preset.size() == mesh.position.size() &&
-                std::all_of(preset.begin(), preset.end(),
-                            [](std::uint8_t c) { return c < kFirstFreeColour || c == kNoColour; }),
-            "preset colours are below 8");
+      check(preset.size() == mesh.position.size(), "one preset colour per node");
     });
     if (preset.data() != mesh.colour.data()) mesh.colour.assign(preset.begin(), preset.end());
     turn_.assign(mesh.position.size(), 0);

@@ -37,7 +37,7 @@ double Edits::loss(LocalId cell, std::int32_t to) const {
 }
 
 std::uint64_t Edits::lot(LocalId cell) const {  // splitmix64 of the id
-  std::uint64_t z = static_cast<std::uint64_t>(mesh.hex_id[at(cell)]) + 0x9e3779b97f4a7c15U;
+  std::uint64_t z = static_cast<std::uint64_t>(mesh.hex_homes()[at(cell)]) + 0x9e3779b97f4a7c15U;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
   return z ^ (z >> 31);
@@ -98,10 +98,12 @@ void Edits::lock_materials(std::int64_t materials) {
     const auto found = std::lower_bound(mesh.hex_id.begin(), mesh.hex_id.end(), a.cell);
     if (a.material < 0 || found == mesh.hex_id.end() || *found != a.cell) continue;
     const auto c = static_cast<LocalId>(found - mesh.hex_id.begin());
-    if (locked_[at(c)]) continue;
+    if (!owned(c) || locked_[at(c)]) continue;
     locked_[at(c)] = 1;
-    if (material(c) != a.material) change(c, a.material);
+    if (material(c) != a.material) change_owned(c, a.material);
   }
+  mesh.hex_exchange.copy_to_ghosts(locked_);
+  share();
 }
 
 Pieces pieces(const Edits& edits, std::int64_t most) {
@@ -118,12 +120,12 @@ Pieces pieces(const Edits& edits, std::int64_t most) {
       alone = false;
     }
   }
-  Components components = connected_components(edits.comm(), std::move(sets), mesh.hex_id, mesh.hex_exchange);
+  Components components = connected_components(edits.comm(), std::move(sets), mesh.hex_homes(), mesh.hex_exchange);
   Pieces p{std::move(components.of), std::move(components.label), {}, {}};
   p.size.assign(p.label.size(), 0);
   p.shared.assign(p.label.size(), 0);
   for (LocalId c = 0; c < mesh.size(); ++c) p.size[at(p.of[at(c)])] += edits.owned(c);
-  if (edits.comm().size() == 1) return p;
+  if (edits.comm().size() == 1 && mesh.hex_exchange.sends().empty()) return p;
   for (const auto* links : {&mesh.hex_exchange.sends(), &mesh.hex_exchange.receives()})
     for (const GhostExchange::Link& link : *links)
       for (const LocalId c : link.items) p.shared[at(p.of[at(c)])] = 1;

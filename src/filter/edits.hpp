@@ -166,6 +166,7 @@ class Collapses : public CellChanges {
   [[nodiscard]] bool alone(LocalId cell, std::size_t face) const;
   [[nodiscard]] int alone_around(LocalId cell) const;
   [[nodiscard]] bool manifold_around(LocalId cell) const;
+  [[nodiscard]] std::vector<LocalId> instances_within_reach(LocalId cell) const;
 };
 
 }  // namespace sculpt

@@ -37,6 +37,10 @@ class DiatomSource final : public MaterialSource {
     return data;
   }
 
+  [[nodiscard]] std::optional<Fractions> measure(const Grid& grid, const IndexBox& box) const override {
+    return shape_fractions(grid, box, *shapes_, outside_);
+  }
+
   [[nodiscard]] ExactSurface exact_surface() const override { return surfaces_of(shapes_, grid_); }
 
  private:

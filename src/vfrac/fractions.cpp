@@ -37,6 +37,49 @@ Fractions expand_fractions(const Fractions& data, const IndexBox& source_box, co
   return grown;
 }
 
+Fractions with_ghosts(const HexMesh& cells, const Fractions& owned) {
+  using G = GhostExchange;
+  std::vector<LocalId> place(cells.hexes.size(), kNone);  // in `owned` or `received`
+  LocalId next = 0;
+  for (std::size_t c = 0; c < place.size(); ++c)
+    if (cells.layer[c] == 0) place[c] = next++;
+  const auto first_of = [](const Fractions& f, LocalId c) { return static_cast<std::size_t>(f.offset[at(c)]); };
+  Fractions received;
+  LocalId arrived = 0;
+  cells.hex_exchange.send_records(
+      [&](LocalId c, std::vector<char>& bytes) {
+        const std::size_t first = first_of(owned, place[at(c)]), last = first_of(owned, place[at(c)] + 1);
+        G::append(bytes, static_cast<std::int32_t>(last - first));
+        for (std::size_t e = first; e < last; ++e) {
+          G::append(bytes, owned.material[e]);
+          G::append(bytes, owned.value[e]);
+        }
+      },
+      [&](LocalId ghost, const char* from) {
+        std::int32_t count;
+        G::take(from, count);
+        for (std::int32_t e = 0; e < count; ++e) {
+          std::int32_t material;
+          double value;
+          G::take(from, material);
+          G::take(from, value);
+          received.add(material, value);
+        }
+        received.end_cell();
+        place[at(ghost)] = arrived++;
+        return from;
+      });
+  Fractions all;
+  all.reserve(place.size(), owned.material.size() + received.material.size());
+  for (std::size_t c = 0; c < place.size(); ++c) {
+    const Fractions& from = cells.layer[c] == 0 ? owned : received;
+    for (std::size_t e = first_of(from, place[c]); e < first_of(from, place[c] + 1); ++e)
+      all.add(from.material[e], from.value[e]);
+    all.end_cell();
+  }
+  return all;
+}
+
 void follow_assignment(Fractions& fractions, std::span<const std::int32_t> material) {
   Fractions followed;
   followed.reserve(material.size(), fractions.material.size());

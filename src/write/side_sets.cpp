@@ -1,7 +1,6 @@
 #include "sculpt/write/side_sets.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <compare>
 
 #include "sculpt/deck/deck.hpp"
@@ -35,14 +34,12 @@ class Planner {
   SidePlan fixed() {
     add_inner(
         [](const InterfaceQuad&, std::size_t, bool exterior) { return exterior ? kExterior : kInterfaces; });
-    for (const BoxFaces::Face& f : box_faces())
-      plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, kGridBoundary});
+    for (const BoxFaces::Face& f : box_faces()) add_box(f, kGridBoundary);
     return std::move(plan_);
   }
 
   SidePlan rve() {
-    for (const BoxFaces::Face& f : box_faces())
-      plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, f.side + 1});
+    for (const BoxFaces::Face& f : box_faces()) add_box(f, f.side + 1);
     return std::move(plan_);
   }
 
@@ -61,7 +58,7 @@ class Planner {
       if (!meshed_here(cell)) continue;
       const std::int64_t surface = brep_.surfaces + box.surface[i];
       note(surface, place(cell, face, cells_.hex_id[at(cell)]));
-      plan_.box.push_back({cells_.hex_id[at(cell)], side, surface});
+      add_box(box.faces[i], surface);
     }
     renumber();
     return std::move(plan_);
@@ -78,7 +75,17 @@ class Planner {
     return cells_.layer[at(cell)] == 0 && !drop_[at(cell)];
   }
 
-  // set_of(quad, its index, whether it is exterior), for quads whose listed cell is owned.
+  // The nodes on periodic sides are not marked as such: their faces are followed like those inside.
+  void add_box(const BoxFaces::Face& face, std::int64_t set) {
+    const GlobalId cell = cells_.hex_id[at(face.cell)];
+    if (face_sides(cells_, face.cell, face.face) != 0)
+      plan_.box.push_back({cell, face.side, set});
+    else
+      plan_.inner.push_back({cell, face.face, set});
+  }
+
+  // set_of(quad, its index, whether it is exterior), for quads whose listed cell is owned. Quads on the sides
+  // of the box, towards images, are left to add_box().
   template <class SetOf>
   void add_inner(SetOf&& set_of) {
     for (std::size_t i = 0; i < faces_.quads.size(); ++i) {
@@ -88,7 +95,7 @@ class Planner {
       const bool by_second =
           first_out || (!second_out && cells_.material[at(q.cell[1])] > cells_.material[at(q.cell[0])]);
       const LocalId cell = q.cell[by_second];
-      if (cells_.layer[at(cell)] != 0) continue;
+      if (cells_.layer[at(cell)] != 0 || cells_.image_of(q.cell[!by_second]) != Image{0, 0, 0}) continue;
       plan_.inner.push_back({cells_.hex_id[at(cell)], by_second ? face_of_second(q) : q.face,
                              set_of(q, i, first_out || second_out)});
     }
@@ -103,8 +110,7 @@ class Planner {
     for (LocalId c = 0; c < cells_.size(); ++c) {
       if (!meshed_here(c)) continue;
       for (int f = 0; f < 6; ++f)
-        if (neighbours_[at(c)][static_cast<std::size_t>(f)] == kNone)
-          out.push_back({c, f, std::countr_zero(face_sides(cells_, c, f))});
+        if (const int side = side_of_box(cells_, neighbours_, c, f); side >= 0) out.push_back({c, f, side});
     }
     return out;
   }

@@ -63,6 +63,13 @@ class MaterialSource {
   // Collective. wanted[r] = the cells rank r needs (known to all ranks; boxes may overlap or be empty). Reads
   // large files once, all ranks together, and leaves on each rank only what it wanted. Throws AgreedError.
   [[nodiscard]] virtual MaterialData read(const Comm& comm, std::span<const IndexBox> wanted) = 0;
+  // Local. The fractions of a box of cells of any grid, for input that goes on beyond its own grid; nothing
+  // for data, which end with it.
+  [[nodiscard]] virtual std::optional<Fractions> measure(const Grid& grid, const IndexBox& box) const {
+    (void)grid;
+    (void)box;
+    return std::nullopt;
+  }
   // What the input knows exactly of its surfaces. Stays usable when the source is gone.
   [[nodiscard]] virtual ExactSurface exact_surface() const { return {}; }
 };

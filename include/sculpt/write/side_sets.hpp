@@ -13,7 +13,8 @@
 //   rve       1..6 = the sides xmin, xmax, ymin, ymax, zmin, zmax of the box
 //
 // A face between two meshed materials is listed once, by the cell of the larger dense material index. A set
-// without faces does not appear.
+// without faces does not appear. In a periodic mesh the sides of the box have their faces all the same, on
+// both sides of a period; they count as sides of the box only, whatever lies beyond.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -32,13 +33,13 @@ struct SidePlan {
     std::int32_t at;  // inner: kFaces index; box: bit number of the BoxSide
     std::int64_t set;
   };
-  std::vector<Item> inner;  // faces towards another material or an unmeshed cell
-  std::vector<Item> box;    // faces on the sides of the box
+  std::vector<Item> inner;  // faces towards another material or an unmeshed cell, and on periodic sides
+  std::vector<Item> box;    // faces on the other sides of the box
 };
 
 // Collective. gen_sidesets: a value of GenSidesets (deck.hpp); kSidesetsOff gives an empty plan. drop: per
-// cell, 1 = no part of the mesh; all of these have one material that no other cell has. grid: cells of the
-// Cartesian grid per axis, all 0 when the overlay mesh is none (the planes of one axis then count as one).
+// cell, 1 = no part of the mesh; all of these have one material that no other cell has. grid: cells per
+// axis of the Cartesian grid that the ids are made of (numbered_grid), all 0 when the overlay mesh is none (the planes of one axis then count as one).
 // brep is used for `variable` only.
 [[nodiscard]] SidePlan plan_side_sets(const Comm& comm, const HexMesh& cells,
                                       const FaceNeighbours& neighbours, const Interfaces& faces,

@@ -13,6 +13,7 @@
 #include "pipeline/console.hpp"
 #include "pipeline/interface_geometry.hpp"
 #include "pipeline/layers.hpp"
+#include "pipeline/periodicity.hpp"
 #include "sculpt/base/fixed_point.hpp"
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/interfaces.hpp"
@@ -43,7 +44,8 @@ struct Overlay {
   MaterialTable materials;
   FaceNeighbours neighbours;
   std::optional<NodeHexes> around;
-  Index3 grid{0, 0, 0};  // cells per axis, all ranks
+  Index3 grid{0, 0, 0};      // cells per axis, all ranks
+  Index3 numbered{0, 0, 0};  // those of the grid that gives the cells their ids
   bool pure = true;      // on all ranks every cell holds one material only
   ExactSurface exact;    // what the input knows of its surfaces
 };
@@ -64,14 +66,20 @@ Grid overlay_grid(const Deck& deck, const Grid& source) {
 Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages) {
   const auto source = open_source(comm, deck, log);
   const Grid grid = overlay_grid(deck, source->grid());
-  const CartesianParts parts = cut_grid(grid.cells, comm.size(), {deck.iproc, deck.jproc, deck.kproc});
+  CartesianParts parts = cut_grid(grid.cells, comm.size(), {deck.iproc, deck.jproc, deck.kproc});
+  parts.periodic = periodic_axes(deck, grid.cells);
   print_decomposition(log, parts);
   const int layers = layer_plan(deck).ghost_layers();
 
+  // The ghosts of a periodic grid are no box of the source: their fractions come from their owners.
   std::vector<IndexBox> wanted;
   for (int r = 0; r < comm.size(); ++r)
-    wanted.push_back(source_of(parts.ghosted(r, layers), deck.micro_expand, source->grid().cells));
+    wanted.push_back(deck.periodic
+                         ? parts.owned(r)
+                         : source_of(parts.ghosted(r, layers), deck.micro_expand, source->grid().cells));
   MaterialData data = source->read(comm, wanted);
+  if (deck.periodic && deck.check_periodic)
+    check_period(comm, deck, *source, parts, data.table, data.fractions, log);
   stages.end("read input");
 
   Overlay overlay{lattice_mesh(comm, grid, parts, layers),
@@ -80,8 +88,10 @@ Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages&
                   {},
                   {},
                   grid.cells,
+                  numbered_grid(parts, layers),
                   true,
                   source->exact_surface()};
+  if (deck.periodic) overlay.fractions = with_ghosts(overlay.cells, overlay.fractions);
   const bool pure = overlay.fractions.material.size() == static_cast<std::size_t>(overlay.fractions.cells());
   overlay.pure = comm.min(std::int64_t{pure}) == 1;
   if (deck.micro_expand > 0)
@@ -192,7 +202,7 @@ SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& ov
   const Brep brep = build_brep(comm, overlay.cells, overlay.neighbours, faces);
   log.line("  {} volumes, {} surfaces, {} curves, {} vertices", brep.volumes, brep.surfaces, brep.curves,
            brep.vertices);
-  return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop, overlay.grid,
+  return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop, overlay.numbered,
                         deck.gen_sidesets);
 }
 
@@ -359,6 +369,7 @@ WriteOptions write_options(const Deck& deck, const MaterialTable& materials, con
   w.base = deck.exodus_file;
   w.large = deck.large_exodus;
   w.block_id = materials.block_id;
+  w.periodic_node_sets = periodic_node_sets(deck);
   for (const IdName& n : deck.material_name) w.block_names[n.id] = n.name;
   for (const IdName& n : deck.sideset_name) w.side_set_names[n.id] = n.name;
   if (deck.quality_variable) w.variables.push_back({"scaled_jacobian", scaled_jacobians(mesh)});

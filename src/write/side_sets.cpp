@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <compare>
+#include <tuple>
 
 #include "sculpt/deck/deck.hpp"
 
@@ -34,12 +35,14 @@ class Planner {
   SidePlan fixed() {
     add_inner(
         [](const InterfaceQuad&, std::size_t, bool exterior) { return exterior ? kExterior : kInterfaces; });
-    for (const BoxFaces::Face& f : box_faces()) add_box(f, kGridBoundary);
+    for (const BoxFaces::Face& f : box_faces())
+      plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, kGridBoundary});
     return std::move(plan_);
   }
 
   SidePlan rve() {
-    for (const BoxFaces::Face& f : box_faces()) add_box(f, f.side + 1);
+    for (const BoxFaces::Face& f : box_faces())
+      plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, f.side + 1});
     return std::move(plan_);
   }
 
@@ -58,7 +61,7 @@ class Planner {
       if (!meshed_here(cell)) continue;
       const std::int64_t surface = brep_.surfaces + box.surface[i];
       note(surface, place(cell, face, cells_.hex_id[at(cell)]));
-      add_box(box.faces[i], surface);
+      plan_.box.push_back({cells_.hex_id[at(cell)], side, surface});
     }
     renumber();
     return std::move(plan_);
@@ -75,17 +78,8 @@ class Planner {
     return cells_.layer[at(cell)] == 0 && !drop_[at(cell)];
   }
 
-  // The nodes on periodic sides are not marked as such: their faces are followed like those inside.
-  void add_box(const BoxFaces::Face& face, std::int64_t set) {
-    const GlobalId cell = cells_.hex_id[at(face.cell)];
-    if (face_sides(cells_, face.cell, face.face) != 0)
-      plan_.box.push_back({cell, face.side, set});
-    else
-      plan_.inner.push_back({cell, face.face, set});
-  }
-
-  // set_of(quad, its index, whether it is exterior), for quads whose listed cell is owned. Quads on the sides
-  // of the box, towards images, are left to add_box().
+  // set_of(quad, its index, whether it is exterior), for quads whose listed cell is owned; but those between
+  // two meshed cells are no quads of the files where one of them is an image.
   template <class SetOf>
   void add_inner(SetOf&& set_of) {
     for (std::size_t i = 0; i < faces_.quads.size(); ++i) {
@@ -95,9 +89,11 @@ class Planner {
       const bool by_second =
           first_out || (!second_out && cells_.material[at(q.cell[1])] > cells_.material[at(q.cell[0])]);
       const LocalId cell = q.cell[by_second];
-      if (cells_.layer[at(cell)] != 0 || cells_.image_of(q.cell[!by_second]) != Image{0, 0, 0}) continue;
+      const bool exterior = first_out || second_out;
+      const bool across_period = cells_.image_of(q.cell[!by_second]) != Image{0, 0, 0};
+      if (cells_.layer[at(cell)] != 0 || (across_period && !exterior)) continue;
       plan_.inner.push_back({cells_.hex_id[at(cell)], by_second ? face_of_second(q) : q.face,
-                             set_of(q, i, first_out || second_out)});
+                             set_of(q, i, exterior)});
     }
   }
   [[nodiscard]] int face_of_second(const InterfaceQuad& q) const {
@@ -169,9 +165,61 @@ int side_over(int g, int f) {
   return -1;
 }
 
+// A face of an owned hex on a side of the box (bit number of the BoxSide).
+struct FaceOnSide {
+  LocalId hex;
+  std::int32_t face, side;
+  auto operator<=>(const FaceOnSide&) const = default;
+};
+
+// The side that lies between an image and the domain; at an edge of the domain the one across the first axis.
+int side_towards(const Image& image) {
+  for (std::size_t d = 0; d < 3; ++d)
+    if (image[d] != 0) return static_cast<int>(2 * d) + (image[d] > 0 ? 1 : 0);
+  return -1;
+}
+
+// The faces of owned hexes whose other side is an image, ascending. Those are the periodic sides of the
+// mesh: at edges of the domain the hexes on both sides of a face may lie in neither x nor y of each other,
+// but across both.
+std::vector<FaceOnSide> faces_towards_images(const HexMesh& mesh) {
+  std::vector<FaceOnSide> out;
+  std::vector<std::uint8_t> of_image(mesh.position.size(), 0);
+  for (LocalId h = 0; h < mesh.size(); ++h)
+    if (side_towards(mesh.image_of(h)) >= 0)
+      for (const LocalId n : mesh.hexes[at(h)]) of_image[at(n)] = 1;
+  struct Face {
+    std::array<LocalId, 4> nodes;
+    LocalId hex;
+    std::int32_t face, side;  // side -1: of an owned hex
+  };
+  std::vector<Face> faces;
+  for (LocalId h = 0; h < mesh.size(); ++h) {
+    const int side = side_towards(mesh.image_of(h));
+    for (std::size_t f = 0; f < 6 && (side >= 0 || mesh.layer[at(h)] == 0); ++f) {
+      Face face{{}, h, static_cast<std::int32_t>(f), side};
+      for (std::size_t v = 0; v < 4; ++v)
+        face.nodes[v] = mesh.hexes[at(h)][static_cast<std::size_t>(kFaces[f][v])];
+      if (std::any_of(face.nodes.begin(), face.nodes.end(), [&](LocalId n) { return !of_image[at(n)]; }))
+        continue;
+      std::sort(face.nodes.begin(), face.nodes.end());
+      faces.push_back(face);
+    }
+  }
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+    return std::tie(a.nodes, a.side) < std::tie(b.nodes, b.side);
+  });
+  for (std::size_t i = 0; i + 1 < faces.size(); ++i)
+    if (faces[i].nodes == faces[i + 1].nodes && faces[i].side < 0 && faces[i + 1].side >= 0)
+      out.push_back({faces[i].hex, faces[i].face, faces[i + 1].side});
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 class Finder {
  public:
-  Finder(const HexMesh& mesh, int stages) : mesh_(mesh), stages_(stages) {
+  Finder(const HexMesh& mesh, int stages)
+      : mesh_(mesh), stages_(stages), periodic_faces_(faces_towards_images(mesh)) {
     for (int s = 0; s < stages; ++s) family_ *= kHexFactor;
   }
 
@@ -198,7 +246,10 @@ class Finder {
     for (auto it = begin; it != mesh_.hex_id.end() && *it < family_ * (item.cell + 1); ++it)
       for (int f = 0; f < 6; ++f) {
         const auto hex = static_cast<LocalId>(it - mesh_.hex_id.begin());
-        if (face_sides(mesh_, hex, f) >> item.at & 1) out_.push_back({item.set, hex, f});
+        const bool on_side = (face_sides(mesh_, hex, f) >> item.at & 1) != 0 ||
+                             std::binary_search(periodic_faces_.begin(), periodic_faces_.end(),
+                                                FaceOnSide{hex, f, item.at});
+        if (on_side) out_.push_back({item.set, hex, f});
       }
   }
 
@@ -227,6 +278,7 @@ class Finder {
 
   const HexMesh& mesh_;
   int stages_;
+  std::vector<FaceOnSide> periodic_faces_;
   GlobalId family_ = 1;  // ids per cell
   struct HexFace {
     GlobalId hex;

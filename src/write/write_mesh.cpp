@@ -290,7 +290,8 @@ WriteSummary write_mesh(const Comm& comm, const HexMesh& mesh, const std::vector
     discard(temporary);
     throw;
   }
-  return {part.global_nodes, part.global_hexes, part.blocks.size(), part.side_sets.size()};
+  return {part.global_nodes, part.global_hexes, part.blocks.size(), part.node_sets.size(),
+          part.side_sets.size()};
 }
 
 namespace {

@@ -13,8 +13,10 @@
 //   rve       1..6 = the sides xmin, xmax, ymin, ymax, zmin, zmax of the box
 //
 // A face between two meshed materials is listed once, by the cell of the larger dense material index. A set
-// without faces does not appear. In a periodic mesh the sides of the box have their faces all the same, on
-// both sides of a period; they count as sides of the box only, whatever lies beyond.
+// without faces does not appear. In a periodic mesh the sides of the box are the faces that have a partner
+// one period away (docs/periodic.md): they count as sides of the box whatever material lies beyond. Where
+// nothing is meshed beyond, the faces are exterior ones; a surface of `variable` that has lost all its faces
+// so leaves a gap in the ids.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -33,8 +35,8 @@ struct SidePlan {
     std::int32_t at;  // inner: kFaces index; box: bit number of the BoxSide
     std::int64_t set;
   };
-  std::vector<Item> inner;  // faces towards another material or an unmeshed cell, and on periodic sides
-  std::vector<Item> box;    // faces on the other sides of the box
+  std::vector<Item> inner;  // faces towards another material or an unmeshed cell
+  std::vector<Item> box;    // faces on the sides of the box
 };
 
 // Collective. gen_sidesets: a value of GenSidesets (deck.hpp); kSidesetsOff gives an empty plan. drop: per

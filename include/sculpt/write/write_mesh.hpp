@@ -38,7 +38,7 @@ struct WriteOptions {
 
 struct WriteSummary {
   std::int64_t nodes = 0, hexes = 0;
-  std::size_t blocks = 0, side_sets = 0;
+  std::size_t blocks = 0, node_sets = 0, side_sets = 0;
 };
 
 // Collective. side_faces: of owned hexes, each once. Throws AgreedError when a file cannot be written

@@ -1,0 +1,146 @@
+#include "pipeline/periodicity.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sculpt {
+namespace {
+
+constexpr char kAxisName[] = "xyz";
+
+// The largest difference found so far and where it is.
+struct Difference {
+  double value = 0;
+  std::size_t axis = 0;
+  bool beyond_high = false;  // the cell outside lies beyond the high side
+  Index3 inside{0, 0, 0};    // the cell of the grid one period away from it
+  std::int32_t material = 0;
+  double fraction_inside = 0, fraction_outside = 0;
+};
+
+double fraction_at(const Fractions& f, std::size_t cell, std::int32_t material) {
+  for (auto e = static_cast<std::size_t>(f.offset[cell]); e < static_cast<std::size_t>(f.offset[cell + 1]);
+       ++e)
+    if (f.material[e] == material) return f.value[e];
+  return 0;
+}
+
+// Compares one cell inside with the cell outside, material by material.
+void compare(const Fractions& inside, std::size_t in, const Fractions& outside, std::size_t out,
+             Difference here, Difference& worst) {
+  for (const auto& [list, cell] : {std::pair(&inside, in), std::pair(&outside, out)})
+    for (auto e = static_cast<std::size_t>(list->offset[cell]);
+         e < static_cast<std::size_t>(list->offset[cell + 1]); ++e) {
+      here.material = list->material[e];
+      here.fraction_inside = fraction_at(inside, in, here.material);
+      here.fraction_outside = fraction_at(outside, out, here.material);
+      here.value = std::fabs(here.fraction_inside - here.fraction_outside);
+      if (here.value > worst.value) worst = here;
+    }
+}
+
+// The grid with one more cell at both ends of an axis.
+Grid grown(const Grid& grid, std::size_t axis) {
+  Grid more = grid;
+  std::vector<double>& planes = more.planes[axis];
+  const double period = planes.back() - planes.front(), first = planes[planes.size() - 2] - period,
+               last = planes[1] + period;
+  planes.insert(planes.begin(), first);
+  planes.push_back(last);
+  more.cells[axis] += 2;
+  return more;
+}
+
+// Over the owned cells at the periodic sides.
+Difference worst_difference(const MaterialSource& source, const CartesianParts& parts, const IndexBox& owned,
+                            const Fractions& fractions) {
+  Difference worst;
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!parts.periodic[d]) continue;
+    const Grid grid = grown(source.grid(), d);
+    for (const bool beyond_high : {false, true}) {
+      IndexBox inside = owned;
+      (beyond_high ? inside.hi[d] : inside.lo[d]) = beyond_high ? 1 : parts.cells[d] - 1;
+      inside = intersection(inside, owned);
+      if (inside.empty()) continue;
+      IndexBox outside = inside;
+      outside.lo[d] = beyond_high ? parts.cells[d] + 1 : 0;
+      outside.hi[d] = outside.lo[d] + 1;
+      const std::optional<Fractions> measured = source.measure(grid, outside);
+      if (!measured) return {};
+      for (std::int64_t c = 0; c < inside.size(); ++c) {
+        const Index3 cell = inside.cell(c);
+        compare(fractions, static_cast<std::size_t>(owned.position(cell)), *measured,
+                static_cast<std::size_t>(c), {0, d, beyond_high, cell, 0, 0, 0}, worst);
+      }
+    }
+  }
+  return worst;
+}
+
+Error not_periodic(const Difference& d, const Grid& grid, const MaterialTable& materials, double tolerance) {
+  Vec3 p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::vector<double>& planes = grid.planes[k];
+    const auto i = static_cast<std::size_t>(d.inside[k]);
+    p[k] = 0.5 * (planes[i] + planes[i + 1]);
+  }
+  const double period = grid.planes[d.axis].back() - grid.planes[d.axis].front();
+  return Error(fmt::format(
+      "check_periodic: the geometry is not periodic in {}: the cell at ({:g}, {:g}, {:g}) has {:.4f} of "
+      "material {}, the cell one period ({:g}) {} has {:.4f}; check_periodic_tol = {:g}. Repeat the shapes "
+      "beyond the sides of the grid that they cross, or go on with check_periodic = false",
+      kAxisName[d.axis], p.x, p.y, p.z, d.fraction_inside,
+      materials.block_id[static_cast<std::size_t>(d.material)], period,
+      d.beyond_high ? "farther, just outside," : "before, just outside,", d.fraction_outside, tolerance));
+}
+
+}  // namespace
+
+std::array<bool, 3> periodic_axes(const Deck& deck, const Index3& cells) {
+  std::array<bool, 3> axes{false, false, false};
+  for (std::size_t d = 0; d < 3; ++d) {
+    axes[d] = deck.periodic && (deck.periodic_directions >> d & 1) != 0;
+    if (axes[d] && cells[d] < 2)
+      throw Error(fmt::format(
+          "periodic: the grid has 1 cell in {0}, but a node there would be its own neighbour; at least 2 are "
+          "needed, or periodic_directions without {0}",
+          kAxisName[d]));
+  }
+  return axes;
+}
+
+std::array<std::array<std::int64_t, 2>, 3> periodic_node_sets(const Deck& deck) {
+  std::array<std::array<std::int64_t, 2>, 3> ids{};
+  auto next = deck.periodic_nodesets.begin();
+  for (std::size_t d = 0; d < 3 && next != deck.periodic_nodesets.end(); ++d)
+    if ((deck.periodic_directions >> d & 1) != 0)
+      for (std::int64_t& id : ids[d]) id = *next++;
+  return ids;
+}
+
+void check_period(const Comm& comm, const Deck& deck, const MaterialSource& source,
+                  const CartesianParts& parts, const MaterialTable& materials, const Fractions& owned,
+                  const Log& log) {
+  Difference worst;
+  collectively(comm, "checking the period", [&] {
+    worst = worst_difference(source, parts, parts.owned(comm.rank()), owned);
+  });
+  const double largest = comm.max(worst.value);
+  // The first of all cells with this difference.
+  const auto key = worst.value == largest
+                       ? 6 * source.grid().cell_id(worst.inside) +
+                             static_cast<std::int64_t>(2 * worst.axis) + (worst.beyond_high ? 1 : 0)
+                       : std::numeric_limits<std::int64_t>::max();
+  const std::int64_t first = comm.min(key);
+  collectively(comm, "checking the period", [&] {
+    if (largest > deck.check_periodic_tol && key == first)
+      throw not_periodic(worst, source.grid(), materials, deck.check_periodic_tol);
+  });
+  log.line("check_periodic: volume fractions one period apart differ by at most {:.2g}", largest);
+}
+
+}  // namespace sculpt

@@ -320,8 +320,9 @@ constexpr OptionSpec kTypeOptions[] = {
      .group = kT,
      .slot = &Deck::check_periodic,
      .help = "Check that the input is periodic",
-     .about = "Used with periodic and diatom_file: the shapes must fill the cells just outside a side as they "
-              "fill those inside the opposite side. Data on a grid are taken as one period.",
+     .about =
+         "Used with periodic and diatom_file: the shapes must fill the cells just outside a side as they "
+         "fill those inside the opposite side. Data on a grid are taken as one period.",
      .supported = true,
      .takes_argument = true},
     {.name = "check_periodic_tol",
@@ -344,8 +345,9 @@ constexpr OptionSpec kTypeOptions[] = {
      .group = kT,
      .slot = &Deck::periodic_nodesets,
      .help = "Nodesets of the periodic sides",
-     .about = "Pairs of ids, for the low side (master) and the high side (slave) of each periodic direction in "
-              "the order x, y, z. In ascending node id the nodes of both sides come in the same order.",
+     .about =
+         "Pairs of ids, for the low side (master) and the high side (slave) of each periodic direction in "
+         "the order x, y, z. In ascending node id the nodes of both sides come in the same order.",
      .supported = true,
      .lo = 1,
      .hi = kMaxId,

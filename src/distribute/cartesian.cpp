@@ -166,8 +166,8 @@ class LatticeMaker {
   const Grid& grid_;
   const CartesianParts& parts_;
   int ranks_;
-  Index3 ids_;              // cells per axis of the numbering
-  Index3 shift_{0, 0, 0};   // of indices in the numbering
+  Index3 ids_;             // cells per axis of the numbering
+  Index3 shift_{0, 0, 0};  // of indices in the numbering
   bool any_periodic_ = false;
   std::array<unsigned, 3> colours_{2, 2, 2};  // per axis
 };

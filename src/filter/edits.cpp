@@ -120,7 +120,8 @@ Pieces pieces(const Edits& edits, std::int64_t most) {
       alone = false;
     }
   }
-  Components components = connected_components(edits.comm(), std::move(sets), mesh.hex_homes(), mesh.hex_exchange);
+  Components components =
+      connected_components(edits.comm(), std::move(sets), mesh.hex_homes(), mesh.hex_exchange);
   Pieces p{std::move(components.of), std::move(components.label), {}, {}};
   p.size.assign(p.label.size(), 0);
   p.shared.assign(p.label.size(), 0);

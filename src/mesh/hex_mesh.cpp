@@ -10,9 +10,7 @@ template <class NodeOf>
 void share(const HexMesh& mesh, const GhostExchange& exchange, std::vector<Vec3>& position,
            const NodeOf& node_of) {
   const bool periodic = !mesh.node_image.empty();
-  const auto owned = [&](std::size_t i) {
-    return mesh.node_owner[at(node_of(i))] == exchange.comm().rank();
-  };
+  const auto owned = [&](std::size_t i) { return mesh.node_owner[at(node_of(i))] == exchange.comm().rank(); };
   for (std::size_t i = 0; periodic && i < position.size(); ++i)
     if (owned(i)) round_to_quantum(mesh, position[i]);
   exchange.copy_to_ghosts(position);

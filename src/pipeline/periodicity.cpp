@@ -14,6 +14,7 @@ constexpr char kAxisName[] = "xyz";
 // The largest difference found so far and where it is.
 struct Difference {
   double value = 0;
+  std::int64_t key = std::numeric_limits<std::int64_t>::max();  // of equal ones the smallest counts
   std::size_t axis = 0;
   bool beyond_high = false;  // the cell outside lies beyond the high side
   Index3 inside{0, 0, 0};    // the cell of the grid one period away from it
@@ -38,7 +39,7 @@ void compare(const Fractions& inside, std::size_t in, const Fractions& outside, 
       here.fraction_inside = fraction_at(inside, in, here.material);
       here.fraction_outside = fraction_at(outside, out, here.material);
       here.value = std::fabs(here.fraction_inside - here.fraction_outside);
-      if (here.value > worst.value) worst = here;
+      if (here.value > worst.value || (here.value == worst.value && here.key < worst.key)) worst = here;
     }
 }
 
@@ -69,12 +70,13 @@ Difference worst_difference(const MaterialSource& source, const CartesianParts& 
       IndexBox outside = inside;
       outside.lo[d] = beyond_high ? parts.cells[d] + 1 : 0;
       outside.hi[d] = outside.lo[d] + 1;
-      const std::optional<Fractions> measured = source.measure(grid, outside);
-      if (!measured) return {};
+      const Fractions measured = source.measure(grid, outside).value();
       for (std::int64_t c = 0; c < inside.size(); ++c) {
         const Index3 cell = inside.cell(c);
-        compare(fractions, static_cast<std::size_t>(owned.position(cell)), *measured,
-                static_cast<std::size_t>(c), {0, d, beyond_high, cell, 0, 0, 0}, worst);
+        const std::int64_t key =
+            6 * source.grid().cell_id(cell) + static_cast<std::int64_t>(2 * d) + (beyond_high ? 1 : 0);
+        compare(fractions, static_cast<std::size_t>(owned.position(cell)), measured,
+                static_cast<std::size_t>(c), {0, key, d, beyond_high, cell, 0, 0, 0}, worst);
       }
     }
   }
@@ -125,19 +127,15 @@ std::array<std::array<std::int64_t, 2>, 3> periodic_node_sets(const Deck& deck) 
 void check_period(const Comm& comm, const Deck& deck, const MaterialSource& source,
                   const CartesianParts& parts, const MaterialTable& materials, const Fractions& owned,
                   const Log& log) {
+  if (!source.measure(source.grid(), {})) return;
   Difference worst;
-  collectively(comm, "checking the period", [&] {
-    worst = worst_difference(source, parts, parts.owned(comm.rank()), owned);
-  });
+  collectively(comm, "checking the period",
+               [&] { worst = worst_difference(source, parts, parts.owned(comm.rank()), owned); });
   const double largest = comm.max(worst.value);
-  // The first of all cells with this difference.
-  const auto key = worst.value == largest
-                       ? 6 * source.grid().cell_id(worst.inside) +
-                             static_cast<std::int64_t>(2 * worst.axis) + (worst.beyond_high ? 1 : 0)
-                       : std::numeric_limits<std::int64_t>::max();
-  const std::int64_t first = comm.min(key);
+  const std::int64_t first =
+      comm.min(worst.value == largest ? worst.key : std::numeric_limits<std::int64_t>::max());
   collectively(comm, "checking the period", [&] {
-    if (largest > deck.check_periodic_tol && key == first)
+    if (largest > deck.check_periodic_tol && worst.key == first)
       throw not_periodic(worst, source.grid(), materials, deck.check_periodic_tol);
   });
   log.line("check_periodic: volume fractions one period apart differ by at most {:.2g}", largest);

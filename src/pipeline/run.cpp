@@ -46,8 +46,8 @@ struct Overlay {
   std::optional<NodeHexes> around;
   Index3 grid{0, 0, 0};      // cells per axis, all ranks
   Index3 numbered{0, 0, 0};  // those of the grid that gives the cells their ids
-  bool pure = true;      // on all ranks every cell holds one material only
-  ExactSurface exact;    // what the input knows of its surfaces
+  bool pure = true;          // on all ranks every cell holds one material only
+  ExactSurface exact;        // what the input knows of its surfaces
 };
 
 // The source's grid with the expansion layers around it.

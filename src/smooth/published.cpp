@@ -267,12 +267,12 @@ class PublishedOptimisation {
       round_to_quantum(mesh_, mesh_.position[at(n)]);
       changed[at(n)] = 1;
     }
-    mesh_.node_exchange.copy_changed(
-        std::span<Vec3>(mesh_.position), std::span<std::uint8_t>(changed), [&](LocalId ghost) {
-          Vec3& p = mesh_.position[at(ghost)];
-          p = position_of_ghost(mesh_, ghost, p);
-          moved.push_back(ghost);
-        });
+    mesh_.node_exchange.copy_changed(std::span<Vec3>(mesh_.position), std::span<std::uint8_t>(changed),
+                                     [&](LocalId ghost) {
+                                       Vec3& p = mesh_.position[at(ghost)];
+                                       p = position_of_ghost(mesh_, ghost, p);
+                                       moved.push_back(ghost);
+                                     });
     set_.refresh_quality_around(moved);
     for (const LocalId n : moved)
       for (const std::int32_t item : set_.around()[n])

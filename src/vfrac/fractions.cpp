@@ -43,7 +43,9 @@ Fractions with_ghosts(const HexMesh& cells, const Fractions& owned) {
   LocalId next = 0;
   for (std::size_t c = 0; c < place.size(); ++c)
     if (cells.layer[c] == 0) place[c] = next++;
-  const auto first_of = [](const Fractions& f, LocalId c) { return static_cast<std::size_t>(f.offset[at(c)]); };
+  const auto first_of = [](const Fractions& f, LocalId c) {
+    return static_cast<std::size_t>(f.offset[at(c)]);
+  };
   Fractions received;
   LocalId arrived = 0;
   cells.hex_exchange.send_records(

@@ -92,8 +92,8 @@ class Planner {
       const bool exterior = first_out || second_out;
       const bool across_period = cells_.image_of(q.cell[!by_second]) != Image{0, 0, 0};
       if (cells_.layer[at(cell)] != 0 || (across_period && !exterior)) continue;
-      plan_.inner.push_back({cells_.hex_id[at(cell)], by_second ? face_of_second(q) : q.face,
-                             set_of(q, i, exterior)});
+      plan_.inner.push_back(
+          {cells_.hex_id[at(cell)], by_second ? face_of_second(q) : q.face, set_of(q, i, exterior)});
     }
   }
   [[nodiscard]] int face_of_second(const InterfaceQuad& q) const {
@@ -246,9 +246,9 @@ class Finder {
     for (auto it = begin; it != mesh_.hex_id.end() && *it < family_ * (item.cell + 1); ++it)
       for (int f = 0; f < 6; ++f) {
         const auto hex = static_cast<LocalId>(it - mesh_.hex_id.begin());
-        const bool on_side = (face_sides(mesh_, hex, f) >> item.at & 1) != 0 ||
-                             std::binary_search(periodic_faces_.begin(), periodic_faces_.end(),
-                                                FaceOnSide{hex, f, item.at});
+        const bool on_side =
+            (face_sides(mesh_, hex, f) >> item.at & 1) != 0 ||
+            std::binary_search(periodic_faces_.begin(), periodic_faces_.end(), FaceOnSide{hex, f, item.at});
         if (on_side) out_.push_back({item.set, hex, f});
       }
   }

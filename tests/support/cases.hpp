@@ -1,6 +1,7 @@
 #pragma once
 // Made-up inputs: a grid and, for every cell, fractions that depend on the cell's global indices and a seed
 // only, so that any rank can ask for any box.
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -17,7 +18,10 @@ struct Case {
   std::int32_t materials = 1;
   std::function<void(const Index3&, Fractions&)> fill;  // adds the entries of one cell, not its end
   bool pure = false;                                    // one material per cell
+  std::array<bool, 3> periodic{false, false, false};    // axes
 };
+// The same input, periodic in some axes.
+[[nodiscard]] Case periodic(Case input, const std::array<bool, 3>& axes = {true, true, true});
 
 // Fractions of the cells of a box, x fastest.
 [[nodiscard]] Fractions fractions_in(const Case& input, const IndexBox& box);

@@ -28,8 +28,8 @@ struct Brep {
 [[nodiscard]] Brep build_brep(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
                               const Interfaces& faces);
 
-// Local. The bit number of the BoxSide that a face of a cell lies on, which may also be one of a periodic axis
-// (there the neighbour is an image); -1 inside the box, for outer faces of the last ghost layer, and for
+// Local. The bit number of the BoxSide that a face of a cell lies on, which may also be one of a periodic
+// axis (there the neighbour is an image); -1 inside the box, for outer faces of the last ghost layer, and for
 // images.
 [[nodiscard]] int side_of_box(const HexMesh& cells, const FaceNeighbours& neighbours, LocalId cell, int face);
 

@@ -41,8 +41,8 @@ struct SidePlan {
 
 // Collective. gen_sidesets: a value of GenSidesets (deck.hpp); kSidesetsOff gives an empty plan. drop: per
 // cell, 1 = no part of the mesh; all of these have one material that no other cell has. grid: cells per
-// axis of the Cartesian grid that the ids are made of (numbered_grid), all 0 when the overlay mesh is none (the planes of one axis then count as one).
-// brep is used for `variable` only.
+// axis of the Cartesian grid that the ids are made of (numbered_grid), all 0 when the overlay mesh is none
+// (the planes of one axis then count as one). brep is used for `variable` only.
 [[nodiscard]] SidePlan plan_side_sets(const Comm& comm, const HexMesh& cells,
                                       const FaceNeighbours& neighbours, const Interfaces& faces,
                                       const Brep& brep, std::span<const std::uint8_t> drop,

@@ -29,6 +29,8 @@ class Builder {
  public:
   Builder(const Comm& comm, const Grid& grid, const Forest& forest, const BlockParts& parts, int layers)
       : comm_(comm), grid_(grid), forest_(forest), parts_(parts), layers_(layers) {
+    const std::array<bool, 3>& axes = forest.periodic();
+    periodic_ = axes[0] || axes[1] || axes[2];
     unit_ = std::int64_t{4}
             << forest.levels();  // per cell of the grid: an eighth of the finest cell in transition
     edge_ = 2 * unit_;
@@ -81,10 +83,24 @@ class Builder {
   [[nodiscard]] std::int64_t block_number(const Index3& b) const {
     return (b[0] + margin_[0]) + extended_[0] * ((b[1] + margin_[1]) + extended_[1] * (b[2] + margin_[2]));
   }
-  [[nodiscard]] Index3 wrapped(Index3 block) const {
+  // How many periods a block lies beyond the grid, and the block of the grid that it is an image of.
+  [[nodiscard]] Image image_of(const Index3& block) const {
+    Image image{0, 0, 0};
     for (std::size_t d = 0; d < 3; ++d)
-      if (forest_.periodic()[d]) block[d] = (block[d] + parts_.blocks[d]) % parts_.blocks[d];
+      if (forest_.periodic()[d])
+        image[d] = static_cast<std::int16_t>((block[d] - (block[d] < 0 ? parts_.blocks[d] - 1 : 0)) /
+                                             parts_.blocks[d]);  // rounded down
+    return image;
+  }
+  [[nodiscard]] Index3 wrapped(Index3 block) const {
+    const Image image = image_of(block);
+    for (std::size_t d = 0; d < 3; ++d) block[d] -= image[d] * parts_.blocks[d];
     return block;
+  }
+  [[nodiscard]] std::int32_t owner_of(Index3 block, const Image& image) const {
+    for (std::size_t d = 0; d < 3; ++d)
+      block[d] = std::min(block[d] - image[d] * parts_.blocks[d], parts_.blocks[d] - 1);
+    return parts_.owner_of(block) + (image == Image{0, 0, 0} ? 0 : comm_.size());
   }
 
   template <class Visit>
@@ -167,12 +183,17 @@ class Builder {
     m.hexes.reserve(expected_);
     hex_key_.reserve(expected_);
     m.hex_owner.reserve(expected_);
+    if (periodic_) {
+      m.node_home.resize(nodes);
+      m.node_image.resize(nodes);
+    }
     std::vector<LocalId> local;
     for (std::int64_t i = 0; i < region_.size(); ++i) {
       const Index3 base = region_.cell(i);
-      const std::int32_t owner = parts_.owner_of(wrapped(base));
-      const bool mine = owner == comm_.rank() && base == wrapped(base);
-      std::int64_t number = block_number(base) << 32;
+      const Image image = image_of(base);
+      const std::int32_t owner = owner_of(base, image);
+      const bool mine = owner == comm_.rank();
+      std::int64_t number = block_number(base) << 32, home = block_number(wrapped(base)) << 32;
       for_each_leaf_of(base, [&](const Placed& p, const Index3& block) {
         find_nodes(p, local);
         for (std::size_t n = 0; n < local.size(); ++n) see(p, n, local[n]);
@@ -183,6 +204,9 @@ class Builder {
           m.hexes.push_back(hex);
           hex_key_.push_back(number++);
           m.hex_owner.push_back(owner);
+          if (!periodic_) continue;
+          m.hex_home.push_back(home++);
+          m.hex_image.push_back(image);
         }
         leaf.end = m.size();
         if (mine) out_.leaves.push_back(leaf);
@@ -254,12 +278,15 @@ class Builder {
       x[d] = coordinate(grid_.planes[d], in_units / static_cast<double>(unit_));
     }
     Index3 block;
-    (void)key_of(p, n, block);
-    block = wrapped(block);
-    for (std::size_t d = 0; d < 3; ++d) block[d] = std::min(block[d], parts_.blocks[d] - 1);
+    const GlobalId key = key_of(p, n, block);
+    const Image image = image_of(block);
+    m.node_owner[at(local)] = owner_of(block, image);
+    if (periodic_) {
+      m.node_home[at(local)] = key + (block_number(wrapped(block)) - block_number(block)) * per_block_;
+      m.node_image[at(local)] = image;
+    }
     m.position[at(local)] = x;
     m.box_sides[at(local)] = static_cast<std::uint8_t>(sides);
-    m.node_owner[at(local)] = parts_.owner_of(block);
   }
 
   // Ghost layers outwards from the owned hexes; what is farther away is dropped.
@@ -301,6 +328,10 @@ class Builder {
     compact(m.hex_owner, index);
     compact(m.layer, index);
     compact(hex_key_, index);
+    if (periodic_) {
+      compact(m.hex_home, index);
+      compact(m.hex_image, index);
+    }
     for (Leaf& leaf : out_.leaves) {
       const LocalId count = leaf.end - leaf.first;
       leaf.first = index[at(leaf.first)];
@@ -313,16 +344,16 @@ class Builder {
 
   void finish() {
     HexMesh& m = out_.cells;
-    GlobalId total = 0;
-    m.node_id = dense_numbers(comm_, keys_, total);
-    m.hex_id = dense_numbers(comm_, hex_key_, total);
+    m.node_id = numbered(keys_, m.node_home);
+    m.hex_id = numbered(hex_key_, m.hex_home);
     keys_ = {};
     hex_key_ = {};
     m.material.assign(m.hexes.size(), 0);
     m.cell_size = grid_.cell_size();
     m.ghost_layers = layers_;
-    m.node_exchange = GhostExchange(comm_, m.node_id, m.node_owner);
-    m.hex_exchange = GhostExchange(comm_, m.hex_id, m.hex_owner);
+    set_period(m, grid_, forest_.periodic(), layers_);
+    connect_ranks(comm_, m);
+    share_positions(m);
     // The outermost nodes do not see all their hexes.
     m.node_exchange.copy_to_ghosts(m.level);
     m.node_exchange.copy_to_ghosts(m.colour);
@@ -330,11 +361,32 @@ class Builder {
     colour_nodes(m, preset);
   }
 
+  // Dense ids of ascending keys; `homes`, keys of other entities, become dense ids as well.
+  [[nodiscard]] std::vector<GlobalId> numbered(const std::vector<GlobalId>& keys,
+                                               std::vector<GlobalId>& homes) const {
+    GlobalId total = 0;
+    if (!periodic_) return dense_numbers(comm_, keys, total);
+    std::vector<GlobalId> all(keys);
+    all.insert(all.end(), homes.begin(), homes.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    const std::vector<GlobalId> dense = dense_numbers(comm_, all, total);
+    const auto id_of = [&](GlobalId key) {
+      return dense[static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), key) - all.begin())];
+    };
+    std::vector<GlobalId> ids;
+    ids.reserve(keys.size());
+    for (const GlobalId key : keys) ids.push_back(id_of(key));
+    for (GlobalId& home : homes) home = id_of(home);
+    return ids;
+  }
+
   const Comm& comm_;
   const Grid& grid_;
   const Forest& forest_;
   const BlockParts& parts_;
   int layers_;
+  bool periodic_;                                     // in any axis
   std::int64_t unit_ = 0, edge_ = 0, per_block_ = 0;  // per cell; per block; keys per block
   Index3 margin_{0, 0, 0}, extended_{0, 0, 0};        // blocks of images per side; blocks that have keys
   IndexBox region_;                                   // blocks of level 0 that are looked at

@@ -4,14 +4,6 @@
 
 namespace sculpt {
 
-std::uint8_t face_sides(const HexMesh& mesh, LocalId hex, int face) {
-  std::uint8_t sides = 0xff;
-  for (const int c : kFaces[static_cast<std::size_t>(face)])
-    sides &= mesh.box_sides[static_cast<std::size_t>(
-        mesh.hexes[static_cast<std::size_t>(hex)][static_cast<std::size_t>(c)])];
-  return sides;
-}
-
 NodeHexes::NodeHexes(const HexMesh& mesh)
     : offset_(mesh.position.size() + 2, 0), items_(mesh.hexes.size() * 8) {
   // One place further on while they are counted: then the offset after a node is where its next item goes.

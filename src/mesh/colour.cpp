@@ -27,7 +27,7 @@ class Colouring {
     turn_.assign(mesh.position.size(), 0);
     for (LocalId n = 0; n < mesh.nodes(); ++n) {
       if (mesh.colour[at(n)] != kNoColour) continue;
-      turn_[at(n)] = static_cast<std::uint8_t>(lot_of(mesh.node_id[at(n)]) % kTurns);
+      turn_[at(n)] = static_cast<std::uint8_t>(lot_of(mesh.node_homes()[at(n)]) % kTurns);
       if (mesh.node_owner[at(n)] == comm_.rank()) waiting_.push_back(n);
     }
     std::stable_sort(waiting_.begin(), waiting_.end(),

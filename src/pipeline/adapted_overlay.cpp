@@ -8,6 +8,7 @@
 
 #include "pipeline/console.hpp"
 #include "pipeline/layers.hpp"
+#include "pipeline/periodicity.hpp"
 #include "sculpt/adapt/criteria.hpp"
 #include "sculpt/adapt/leaf_fractions.hpp"
 #include "sculpt/adapt/leaf_mesh.hpp"
@@ -118,10 +119,11 @@ class Adapter {
         log_(log),
         stages_(stages),
         layers_(layer_plan(deck).ghost_layers()) {
-    periodic_ = {false, false, false};
+    periodic_ = periodic_axes(deck, grid_.cells);
   }
 
   Overlay refined() {
+    refuse_odd_periods();
     AdaptCriterion criterion = criterion_of();
     Forest forest(grid_.cells, levels_, periodic_);
     const CartesianParts cut =
@@ -129,6 +131,7 @@ class Adapter {
     print_decomposition(log_, cut);
     BlockParts parts = block_parts(cut, comm_.size());
     Material material = read(parts);
+    check_periods(parts.box[me()], material);
     stages_.end("read input");
     name_materials(criterion, material.table);
     collectively(comm_, "choosing the cells to refine", [&] {
@@ -151,27 +154,44 @@ class Adapter {
 
   // The coarse grid as it is, with averages of the data.
   Overlay resampled() {
-    const CartesianParts cut = cut_grid(grid_.cells, comm_.size(), {deck_.iproc, deck_.jproc, deck_.kproc});
+    CartesianParts cut = cut_grid(grid_.cells, comm_.size(), {deck_.iproc, deck_.jproc, deck_.kproc});
+    cut.periodic = periodic_;
     print_decomposition(log_, cut);
     std::vector<IndexBox> wanted;
     for (int r = 0; r < comm_.size(); ++r)
-      wanted.push_back(wanted_of(grid_, source_.grid(), cut.ghosted(r, layers_), 0, periodic_));
+      wanted.push_back(wanted_of(grid_, source_.grid(), cut.owned(r), 0, periodic_));
     Material material = read(wanted);
     stages_.end("read input");
     Overlay out = start(lattice_mesh(comm_, grid_, cut, layers_), material);
+    out.numbered = numbered_grid(cut, layers_);
+    Fractions owned;
     collectively(comm_, "resampling", [&] {
       for (LocalId c = 0; c < out.cells.size(); ++c) {
         const Hex& hex = out.cells.hexes[at(c)];
-        material.field->measure({out.cells.position[at(hex[0])], out.cells.position[at(hex[6])]},
-                                out.fractions);
+        if (out.cells.layer[at(c)] == 0)
+          material.field->measure({out.cells.position[at(hex[0])], out.cells.position[at(hex[6])]}, owned);
       }
     });
+    out.fractions = with_ghosts(out.cells, owned);
     stages_.end("distribute");
     return out;
   }
 
  private:
   [[nodiscard]] std::size_t me() const { return static_cast<std::size_t>(comm_.rank()); }
+
+  // Cells are refined in pairs, which must meet across the ends.
+  void refuse_odd_periods() const {
+    for (std::size_t d = 0; d < 3; ++d)
+      if (periodic_[d] && grid_.cells[d] % 2 != 0)
+        throw Error(fmt::format("periodic: a refined grid needs an even number of cells along {}, found {}{}",
+                                "xyz"[d], grid_.cells[d], coarsens(deck_) ? " coarse ones" : ""));
+  }
+  void check_periods(const IndexBox& blocks, const Material& material) const {
+    if (deck_.periodic && deck_.check_periodic && !source_.is_data())
+      check_period(comm_, deck_, grid_, periodic_, cells_of(blocks, grid_.cells), *material.field,
+                   material.table, log_);
+  }
 
   AdaptCriterion criterion_of() {
     AdaptCriterion c;

@@ -14,6 +14,7 @@
 #include "pipeline/interface_geometry.hpp"
 #include "pipeline/layers.hpp"
 #include "pipeline/overlay.hpp"
+#include "pipeline/periodicity.hpp"
 #include "sculpt/base/fixed_point.hpp"
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/interfaces.hpp"
@@ -140,7 +141,7 @@ SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& ov
            brep.vertices);
   const bool is_lattice = overlay.cells.lattice[0] != 0;
   return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop,
-                        is_lattice ? overlay.grid : Index3{0, 0, 0}, deck.gen_sidesets);
+                        is_lattice ? overlay.numbered : Index3{0, 0, 0}, deck.gen_sidesets);
 }
 
 // Smoothing moves volumes a little; materials that were thickened to a volume get the rest of it here.
@@ -306,6 +307,7 @@ WriteOptions write_options(const Deck& deck, const MaterialTable& materials, con
   w.base = deck.exodus_file;
   w.large = deck.large_exodus;
   w.block_id = materials.block_id;
+  w.periodic_node_sets = periodic_node_sets(deck);
   for (const IdName& n : deck.material_name) w.block_names[n.id] = n.name;
   for (const IdName& n : deck.sideset_name) w.side_set_names[n.id] = n.name;
   if (deck.quality_variable) w.variables.push_back({"scaled_jacobian", scaled_jacobians(mesh)});

@@ -123,6 +123,7 @@ std::int64_t ActiveSet::sweep(const std::function<bool(LocalId)>& step, double f
       if (i + 2 < nodes.size()) fetch_ahead(nodes[i + 2], nodes[i + 1]);
       const Vec3 before = mesh_.position[at(n)];
       if (!step(n)) continue;
+      round_to_quantum(mesh_, mesh_.position[at(n)]);
       ++moves;
       moved_.push_back(n);
       changed_[at(n)] = 1;
@@ -161,9 +162,11 @@ void ActiveSet::exchange_moves(double far_squared, int colour) {
         G::append(bytes, mesh_.position[at(n)]);
       },
       [&](LocalId ghost, const char* from) {
-        const Vec3 before = mesh_.position[at(ghost)];
-        G::take(from, mesh_.position[at(ghost)]);
-        const Vec3 move = mesh_.position[at(ghost)] - before;
+        Vec3& p = mesh_.position[at(ghost)];
+        const Vec3 before = p;
+        G::take(from, p);
+        p = position_of_ghost(mesh_, ghost, p);
+        const Vec3 move = p - before;
         far_moved_[at(ghost)] = dot(move, move) > far_squared;
         moved_.push_back(ghost);
         return from;

@@ -166,7 +166,7 @@ class Phases {
   void pull_back_all() {
     for (LocalId n = 0; n < mesh_.nodes(); ++n)
       if (set_.owned(n)) step_.pull_back(n, farthest_);
-    mesh_.node_exchange.copy_to_ghosts(mesh_.position);
+    share_positions(mesh_);
   }
 
   // Positive determinants everywhere. A limit of deviation is given up only where hexes stay inverted.

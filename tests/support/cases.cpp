@@ -42,6 +42,12 @@ double part_above(const Vec3& corner, Vec3 n, double distance) {
 
 }  // namespace
 
+Case periodic(Case input, const std::array<bool, 3>& axes) {
+  input.periodic = axes;
+  input.name = "periodic " + input.name;
+  return input;
+}
+
 Fractions fractions_in(const Case& input, const IndexBox& box) {
   Fractions f;
   for (std::int64_t p = 0; p < box.size(); ++p) {

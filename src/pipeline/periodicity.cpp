@@ -10,6 +10,7 @@ namespace sculpt {
 namespace {
 
 constexpr char kAxisName[] = "xyz";
+constexpr double kSlice = 1e-3;  // of a cell
 
 // The largest difference found so far and where it is.
 struct Difference {
@@ -53,12 +54,18 @@ Difference worst_difference(const Grid& grid, const std::array<bool, 3>& periodi
       inside = intersection(inside, cells);
       for (std::int64_t c = 0; c < inside.size(); ++c) {
         const Index3 cell = inside.cell(c);
-        Box box{grid.corner(cell), grid.corner({cell[0] + 1, cell[1] + 1, cell[2] + 1})};
+        // A slice at the side: shapes that end inside the grid need no copy beyond the other side.
+        Box slice{grid.corner(cell), grid.corner({cell[0] + 1, cell[1] + 1, cell[2] + 1})};
+        const double thickness = kSlice * (slice.hi[d] - slice.lo[d]);
+        if (beyond_high)
+          slice.hi[d] = slice.lo[d] + thickness;
+        else
+          slice.lo[d] = slice.hi[d] - thickness;
         Fractions pair;
-        field.measure(box, pair);
-        box.lo[d] += beyond_high ? period : -period;
-        box.hi[d] += beyond_high ? period : -period;
-        field.measure(box, pair);
+        field.measure(slice, pair);
+        slice.lo[d] += beyond_high ? period : -period;
+        slice.hi[d] += beyond_high ? period : -period;
+        field.measure(slice, pair);
         const std::int64_t key =
             6 * grid.cell_id(cell) + static_cast<std::int64_t>(2 * d) + (beyond_high ? 1 : 0);
         compare(pair, {0, key, d, beyond_high, cell, 0, 0, 0}, worst);
@@ -77,8 +84,9 @@ Error not_periodic(const Difference& d, const Grid& grid, const MaterialTable& m
   }
   const double period = grid.planes[d.axis].back() - grid.planes[d.axis].front();
   return Error(fmt::format(
-      "check_periodic: the geometry is not periodic in {}: the cell at ({:g}, {:g}, {:g}) has {:.4f} of "
-      "material {}, the cell one period ({:g}) {} has {:.4f}; check_periodic_tol = {:g}. Repeat the shapes "
+      "check_periodic: the geometry is not periodic in {}: the side of the cell at ({:g}, {:g}, {:g}) has "
+      "{:.4f} of "
+      "material {}, the place one period ({:g}) {} has {:.4f}; check_periodic_tol = {:g}. Repeat the shapes "
       "beyond the sides of the grid that they cross, or go on with check_periodic = false",
       kAxisName[d.axis], p.x, p.y, p.z, d.fraction_inside,
       materials.block_id[static_cast<std::size_t>(d.material)], period,

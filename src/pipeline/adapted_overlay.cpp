@@ -148,6 +148,7 @@ class Adapter {
     }
     stages_.end("choose cells to refine");
     LeafMesh mesh = leaf_mesh(comm_, grid_, forest, parts, layers_);
+    tell(mesh);
     stages_.end("refine");
     return overlay(std::move(mesh), material);
   }
@@ -288,6 +289,27 @@ class Adapter {
     log_.line(
         "adapting the grid: {} blocks of 2 x 2 x 2 cells to be refined, {} more so that the mesh conforms",
         asked, all - asked);
+    if (deck_.adapt_memory_stats)
+      log_.line("  memory before refinement: at most {:.1f} MB per rank, {:.1f} MB of it for the levels",
+                static_cast<double>(comm_.max(peak_kib())) / 1024,
+                static_cast<double>(8 * forest.words().size()) / 1048576);
+  }
+
+  // Hexes of each level; transitions count as the coarser one.
+  void tell(const LeafMesh& mesh) const {
+    std::vector<std::int64_t> plain(static_cast<std::size_t>(levels_) + 1, 0), transition(plain);
+    for (const Leaf& leaf : mesh.leaves)
+      (leaf.transition ? transition : plain)[static_cast<std::size_t>(leaf.level)] += leaf.end - leaf.first;
+    comm_.sum(plain);
+    comm_.sum(transition);
+    for (std::size_t l = 0; l < plain.size(); ++l)
+      log_.line(
+          "  level {}: {} cubes{}", l, plain[l],
+          transition[l] > 0 ? fmt::format(", {} hexes in transition to level {}", transition[l], l + 1) : "");
+    if (deck_.adapt_memory_stats)
+      log_.line("  memory after refinement: at most {:.1f} MB per rank, {:.1f} MB in all",
+                static_cast<double>(comm_.max(peak_kib())) / 1024,
+                static_cast<double>(comm_.sum(peak_kib())) / 1024);
   }
 
   BlockParts rebalanced(const Forest& forest) const {

@@ -302,6 +302,10 @@ int judge(const Deck& deck, const QualitySummary& quality, const Log& log) {
   return kPoorMeshStatus;
 }
 
+Vec3 scale_of(const Deck& deck) {
+  return {deck.scale * deck.xscale, deck.scale * deck.yscale, deck.scale * deck.zscale};
+}
+
 WriteOptions write_options(const Deck& deck, const MaterialTable& materials, const HexMesh& mesh) {
   WriteOptions w;
   w.base = deck.exodus_file;
@@ -312,6 +316,24 @@ WriteOptions write_options(const Deck& deck, const MaterialTable& materials, con
   for (const IdName& n : deck.sideset_name) w.side_set_names[n.id] = n.name;
   if (deck.quality_variable) w.variables.push_back({"scaled_jacobian", scaled_jacobians(mesh)});
   return w;
+}
+
+std::string export_name(const Deck& deck) { return deck.exodus_file + "_adapt"; }
+bool exports_grid(const Deck& deck) { return deck.adapt_export && deck.adapt_type != kAdaptOff; }
+
+// The cells of the overlay with their materials as a mesh of its own (adapt_export). Transitions are
+// smoothed, so that it is a valid mesh.
+void write_grid(const Comm& comm, const Deck& deck, const Overlay& overlay, const Log& log, Stages& stages) {
+  HexMesh cells = overlay.cells;
+  Geometry none;
+  none.index.assign(cells.position.size(), kNone);
+  smooth_mesh(cells, none, {}, Log(false));
+  transform(cells, scale_of(deck), {deck.xtranslate, deck.ytranslate, deck.ztranslate});
+  WriteOptions options = write_options(deck, overlay.materials, cells);
+  options.base = export_name(deck);
+  const WriteSummary written = write_mesh(comm, cells, {}, options);
+  log.line("adapt_export: the grid, {} cells, is in {}", written.hexes, options.base);
+  stages.end("export grid");
 }
 
 void check_names(const Deck& deck) {
@@ -329,6 +351,7 @@ int run(const Comm& comm, const Deck& deck) {
   Stages stages;
   check_names(deck);
   check_output_folder(comm, deck.exodus_file);
+  if (exports_grid(deck)) check_output_folder(comm, export_name(deck));
   const std::string quality_file = quality_file_name(deck);
   if (!quality_file.empty()) check_output_file(comm, "quality", quality_file);
   Overlay overlay = read_overlay(comm, deck, log, stages);
@@ -341,6 +364,7 @@ int run(const Comm& comm, const Deck& deck) {
       comm, deck, overlay.cells, overlay.fractions, overlay.materials, overlay.neighbours, overlay.around,
       input_volume, [&] { return contoured_volumes(comm, deck, overlay); }, log, stages);
   const MaterialTable materials = overlay.materials;
+  if (exports_grid(deck)) write_grid(comm, deck, overlay, log, stages);
   input_volume.resize(materials.block_id.size(), 0);  // thicken_void may have added the void
   Meshed meshed = build_mesh(comm, deck, std::move(overlay), wanted_volumes, log, stages);
 
@@ -348,8 +372,7 @@ int run(const Comm& comm, const Deck& deck) {
   log.line("generating global ids...");
   HexMesh& mesh = meshed.mesh;
   const Displacement moved = displacement(comm, mesh, meshed.track);
-  transform(mesh, {deck.scale * deck.xscale, deck.scale * deck.yscale, deck.scale * deck.zscale},
-            {deck.xtranslate, deck.ytranslate, deck.ztranslate});
+  transform(mesh, scale_of(deck), {deck.xtranslate, deck.ytranslate, deck.ztranslate});
   std::vector<SideFace> faces = side_set_faces(deck, meshed, log);
   remove_bad_hexes(comm, deck, materials, mesh, faces, log);
   const QualityReport report = report_of(comm, deck, materials, mesh, input_volume, moved);

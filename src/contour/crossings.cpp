@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 
 #include "contour/gradient.hpp"
 #include "sculpt/contour/contour.hpp"
+#include "sculpt/geom/plane_cut.hpp"
 #include "sculpt/vfrac/fractions.hpp"
 
 namespace sculpt {
@@ -44,35 +46,73 @@ GradientTable gradients(const HexMesh& mesh, const Interfaces& faces, const Frac
   return table;
 }
 
-// A cell beside an interface: share of material a in what it holds of a and b, and the direction from a to b,
-// both in units of cells.
+// A cell beside an interface: share of material a in what it holds of a and b, the direction from a to b, and
+// how far the step to the other cell goes in that direction, in units of the cell; the volume of the cell.
 struct Side {
   double share;
   Vec3 normal;
+  double step, volume;
   [[nodiscard]] bool mixed() const { return share > kPure && share < 1 - kPure; }
 };
+
+// The cubic between two cells that meet at the part `face` of the step between their centres: what cells of
+// one size do at their half the larger and the smaller one do at their face.
+double root_across(double face, double g0, double g1, double m0, double m1) {
+  const double s = hermite_root(g0, g1, 2 * face * m0, 2 * (1 - face) * m1);
+  return s < 0.5 ? 2 * face * s : face + (2 * s - 1) * (1 - face);
+}
 
 // Where the interface crosses the step between two cell centres, in [0,1]. Cells that are cut by the
 // interface know where by their volume: the plane of their gradient that cuts off their share. Between pure
 // cells only the gradients tell anything.
-double crossing_position(const Side& s0, const Side& s1, const Vec3& step, double g0, double g1, double m0,
+double crossing_position(const Side& s0, const Side& s1, double face, double g0, double g1, double m0,
                          double m1) {
   constexpr double kGrazing = 0.1;
   if (s0.mixed() && s1.mixed()) {
-    const double ahead = plane_offset(s0.share, s0.normal), behind = -plane_offset(s1.share, s1.normal);
+    const double ahead = plane_offset(s0.share, s0.normal),
+                 behind = -plane_offset(s1.share, s1.normal) * std::cbrt(s1.volume / s0.volume);
     if (ahead + behind > kPure && ahead >= 0 && behind >= 0) return ahead / (ahead + behind);
-  } else if (s0.mixed() && dot(s0.normal, step) > kGrazing) {
-    return plane_offset(s0.share, s0.normal) / dot(s0.normal, step);
-  } else if (s1.mixed() && dot(s1.normal, step) > kGrazing) {
-    return 1 + plane_offset(s1.share, s1.normal) / dot(s1.normal, step);
+  } else if (s0.mixed() && s0.step > kGrazing) {
+    return plane_offset(s0.share, s0.normal) / s0.step;
+  } else if (s1.mixed() && s1.step > kGrazing) {
+    return 1 + plane_offset(s1.share, s1.normal) / s1.step;
   }
-  return hermite_root(g0, g1, m0, m1);
+  return root_across(face, g0, g1, m0, m1);
 }
 
-Side side_of(const Fractions& f, LocalId cell, std::int32_t a, std::int32_t b, const Vec3& slope,
-             const Vec3& cell_size) {
+// Edges of the parallelepiped that a cell is but for its bending.
+std::array<Vec3, 3> mean_edges(const HexMesh& mesh, LocalId cell) {
+  std::array<Vec3, 3> edges;
+  const HexCorners p = mesh.corners(cell);
+  for (std::size_t c = 0; c < 8; ++c)
+    for (std::size_t d = 0; d < 3; ++d) edges[d] += (kCornerOffset[c][d] != 0 ? 0.25 : -0.25) * p[c];
+  return edges;
+}
+
+// slope: of a - b in the cell; step: to the centre of the cell beyond the interface, or from it.
+Side side_of(const HexMesh& mesh, const Fractions& f, LocalId cell, std::int32_t a, std::int32_t b,
+             const Vec3& slope, const Vec3& step) {
   const double va = fraction_of(f, cell, a), vb = fraction_of(f, cell, b);
-  return {va + vb > 0 ? va / (va + vb) : 0.5, unit(-scaled(slope, cell_size))};
+  Side side{va + vb > 0 ? va / (va + vb) : 0.5, {}, 0, 1};
+  if (mesh.lattice[0] != 0) {
+    side.normal = unit(-scaled(slope, mesh.cell_size));
+    side.step = dot(side.normal, scaled(step, mesh.per_cell(mesh.hexes[at(cell)][0])));
+    return side;
+  }
+  const std::array<Vec3, 3> e = mean_edges(mesh, cell);
+  const Vec3 fall{-dot(slope, e[0]), -dot(slope, e[1]), -dot(slope, e[2])};
+  side.normal = unit(fall);
+  side.step = norm(fall) > 0 ? -dot(slope, step) / norm(fall) : 0;
+  side.volume = std::fabs(dot(e[0], cross(e[1], e[2])));
+  return side;
+}
+
+// Where the step between the centres of its cells passes the quad, in [0,1].
+double face_position(const HexMesh& mesh, const InterfaceQuad& q, const Vec3& from, const Vec3& step) {
+  if (mesh.lattice[0] != 0) return 0.5;
+  Vec3 middle;
+  for (const LocalId n : q.node) middle += 0.25 * mesh.position[at(n)];
+  return std::clamp(dot(middle - from, step) / dot(step, step), 0.2, 0.8);
 }
 
 Vec3 centre(const HexMesh& mesh, LocalId cell) {
@@ -82,28 +122,6 @@ Vec3 centre(const HexMesh& mesh, LocalId cell) {
 }
 
 }  // namespace
-
-double plane_offset(double share, const Vec3& normal) {
-  constexpr double kLeastSlope = 1e-4;  // keeps the cubic away from 0/0; the offset changes by less than this
-  const Vec3 m{std::max(std::fabs(normal.x), kLeastSlope), std::max(std::fabs(normal.y), kLeastSlope),
-               std::max(std::fabs(normal.z), kLeastSlope)};
-  const auto cube = [](double x) { return x > 0 ? x * x * x : 0.0; };
-  const auto below = [&](double a) {  // volume of the unit cube where m.x < a
-    return (cube(a) - cube(a - m.x) - cube(a - m.y) - cube(a - m.z) + cube(a - m.x - m.y) +
-            cube(a - m.x - m.z) + cube(a - m.y - m.z)) /
-           (6 * m.x * m.y * m.z);
-  };
-  const double all = m.x + m.y + m.z;
-  // By symmetry only the smaller part is measured, where the cubic loses no digits.
-  const double part = std::min(share, 1 - share);
-  double low = 0, high = 0.5 * all;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (low + high);
-    (below(middle) < part ? low : high) = middle;
-  }
-  const double offset = 0.5 * all - 0.5 * (low + high);
-  return share < 0.5 ? -offset : offset;
-}
 
 double hermite_root(double g0, double g1, double m0, double m1) {
   if (g0 == g1) return 0.5;
@@ -127,7 +145,6 @@ double hermite_root(double g0, double g1, double m0, double m1) {
 std::vector<Crossing> edge_crossings(const HexMesh& mesh, const Interfaces& faces, const Fractions& fractions,
                                      const NodeHexes& around) {
   const GradientTable table = gradients(mesh, faces, fractions, around);
-  const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
   std::vector<Crossing> crossings(faces.quads.size());
   for (std::size_t i = 0; i < faces.quads.size(); ++i) {
     const auto& [c0, c1] = faces.quads[i].cell;
@@ -140,11 +157,11 @@ std::vector<Crossing> edge_crossings(const HexMesh& mesh, const Interfaces& face
         std::min(fraction_of(fractions, c1, a) - fraction_of(fractions, c1, b), -kLeastDominance);
     const Vec3 slope0 = table.of(c0, a) - table.of(c0, b), slope1 = table.of(c1, a) - table.of(c1, b);
     const Vec3 from = centre(mesh, c0), step = centre(mesh, c1) - from;
-    const Side s0 = side_of(fractions, c0, a, b, slope0, mesh.cell_size),
-               s1 = side_of(fractions, c1, a, b, slope1, mesh.cell_size);
-    const double t = std::clamp(
-        crossing_position(s0, s1, scaled(step, in_cells), g0, g1, dot(slope0, step), dot(slope1, step)),
-        kNearest, 1 - kNearest);
+    const Side s0 = side_of(mesh, fractions, c0, a, b, slope0, step),
+               s1 = side_of(mesh, fractions, c1, a, b, slope1, step);
+    const double t = std::clamp(crossing_position(s0, s1, face_position(mesh, faces.quads[i], from, step), g0,
+                                                  g1, dot(slope0, step), dot(slope1, step)),
+                                kNearest, 1 - kNearest);
     Vec3 normal = (t - 1) * slope0 - t * slope1;  // downhill in a - b: from a to b
     if (norm(normal) * norm(step) < 1e-6) normal = step;
     normal = unit(normal);

@@ -61,11 +61,22 @@ void GradientStencil::gather(LocalId cell) {
   find_cells(cell);
   const Vec3 here = centre(cell);
   neighbours_.clear();
-  for (const LocalId c : cells_) neighbours_.push_back({c, centre(c) - here});
+  for (const LocalId c : cells_) neighbours_.push_back({c, 0, centre(c) - here, 1});
 }
 
-// Images of the cells that touch a side of the box which the cell touches as well, for every set of such
-// sides.
+// Whether two cells have a node in common that is on all of these sides of the box.
+bool GradientStencil::share_node_on(LocalId cell, LocalId other, std::uint8_t sides) const {
+  const Hex& hex = mesh_.hexes[sculpt::at(cell)];
+  for (const LocalId n : mesh_.hexes[sculpt::at(other)])
+    if ((mesh_.box_sides[sculpt::at(n)] & sides) == sides &&
+        std::find(hex.begin(), hex.end(), n) != hex.end())
+      return true;
+  return false;
+}
+
+// Images of the cells that would share a node with the cell if the mesh went on, mirrored, beyond the sides
+// of the box: for every set of sides those that share a node on all of them. (No node is on opposite sides,
+// so images across one are no neighbours across the other.)
 void GradientStencil::mirror(LocalId cell) {
   const Hex& hex = mesh_.hexes[static_cast<std::size_t>(cell)];
   for (std::size_t d = 0; d < 3; ++d)
@@ -79,15 +90,21 @@ void GradientStencil::mirror(LocalId cell) {
       const double plane = mesh_.position[static_cast<std::size_t>(*touch)][d] - centre(cell)[d];
       const std::size_t before = neighbours_.size();
       for (std::size_t i = 0; i < before; ++i) {
-        const Hex& other = mesh_.hexes[static_cast<std::size_t>(neighbours_[i].cell)];
-        // An image across the opposite side of a one-cell layer is no neighbour.
-        if (std::none_of(other.begin(), other.end(), on_side) || neighbours_[i].offset[d] * plane < 0)
-          continue;
         Neighbour image = neighbours_[i];
+        image.sides |= side;
+        if (!share_node_on(cell, image.cell, image.sides)) continue;
         image.offset[d] = 2 * plane - image.offset[d];
         neighbours_.push_back(image);
       }
     }
+}
+
+void GradientStencil::weigh() {
+  const Vec3 in_cells{1 / mesh_.cell_size.x, 1 / mesh_.cell_size.y, 1 / mesh_.cell_size.z};
+  for (Neighbour& n : neighbours_) {
+    const Vec3 d = scaled(n.offset, in_cells);
+    n.weight = dot(d, d) > 0 ? 1 / dot(d, d) : 0;  // the cell itself tells nothing
+  }
 }
 
 const std::vector<GradientStencil::Entry>& GradientStencil::at(LocalId cell) {
@@ -105,22 +122,23 @@ const std::vector<GradientStencil::Entry>& GradientStencil::at(LocalId cell) {
   std::sort(entries_.begin(), entries_.end(),
             [](const Entry& a, const Entry& b) { return a.material < b.material; });
   mirror(cell);
+  if (mesh_.lattice[0] == 0) weigh();
 
   Symmetric matrix;
   for (const Neighbour& n : neighbours_) {
-    const Vec3& d = n.offset;
-    matrix.xx += d.x * d.x;
-    matrix.xy += d.x * d.y;
-    matrix.xz += d.x * d.z;
-    matrix.yy += d.y * d.y;
-    matrix.yz += d.y * d.z;
-    matrix.zz += d.z * d.z;
+    const Vec3 &d = n.offset, w = n.weight * d;
+    matrix.xx += w.x * d.x;
+    matrix.xy += w.x * d.y;
+    matrix.xz += w.x * d.z;
+    matrix.yy += w.y * d.y;
+    matrix.yz += w.y * d.z;
+    matrix.zz += w.z * d.z;
   }
   for (Entry& entry : entries_) {
     const double here = fraction_of(fractions_, cell, entry.material);
     Vec3 side;
     for (const Neighbour& n : neighbours_)
-      side += (fraction_of(fractions_, n.cell, entry.material) - here) * n.offset;
+      side += (n.weight * (fraction_of(fractions_, n.cell, entry.material) - here)) * n.offset;
     entry.gradient = solve(matrix, side);
   }
   return entries_;

@@ -19,18 +19,23 @@ class GradientStencil {
   };
   // Every material in the cell or a cell that shares a node with it, ascending. The stencil is mirrored at
   // the sides of the box, so that interfaces leave it at right angles; a direction without neighbours gets no
-  // gradient.
+  // gradient. In a lattice all neighbours weigh the same, in other meshes by the inverse square of their
+  // distance: there some are much nearer than others.
   const std::vector<Entry>& at(LocalId cell);
 
  private:
   struct Neighbour {
     LocalId cell;
+    std::uint8_t sides;  // of the box, across which it is an image
     Vec3 offset;
+    double weight;
   };
   [[nodiscard]] Vec3 centre(LocalId cell) const;
   void find_cells(LocalId cell);
   void gather(LocalId cell);
   void mirror(LocalId cell);
+  void weigh();
+  [[nodiscard]] bool share_node_on(LocalId cell, LocalId other, std::uint8_t sides) const;
 
   const HexMesh& mesh_;
   const Fractions& fractions_;

@@ -16,11 +16,7 @@ constexpr double kRounding = 1e-12;            // shorter ways to the interface,
 
 class Smoother {
  public:
-  Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule)
-      : mesh_(mesh),
-        faces_(faces),
-        rule_(rule),
-        in_cells_{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z} {
+  Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule) : mesh_(mesh), faces_(faces), rule_(rule) {
     std::vector<GlobalId> id, home;
     std::vector<std::int32_t> owner;
     x_.reserve(faces.nodes.size());
@@ -48,7 +44,7 @@ class Smoother {
     for (const LocalId i : owned_) {
       Vec3& p = x_[at(i)];
       const Vec3 move = held_on_box(onto_geometry(mesh_, faces_, crossings, exact, at(i), p) - p, sides(i));
-      if (largest(scaled(move, in_cells_)) > kRounding) p += move;
+      if (largest(scaled(move, mesh_.per_cell(faces_.nodes[at(i)]))) > kRounding) p += move;
     }
     share_positions(mesh_, exchange_, faces_.nodes, x_);
   }
@@ -140,7 +136,6 @@ class Smoother {
   HexMesh& mesh_;
   const Interfaces& faces_;
   CurveRule rule_;
-  Vec3 in_cells_;
   std::vector<Vec3> x_,
       moved_;               // positions by interface node: close together in memory, unlike those of the mesh
   GhostExchange exchange_;  // of interface nodes
@@ -170,8 +165,8 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
   std::vector<Vec3> placed;
   for (const LocalId n : faces.nodes) placed.push_back(mesh.position[at(n)]);
   smoother.finish();
-  const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
   for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
+    const Vec3 in_cells = mesh.per_cell(faces.nodes[i]);
     Vec3& p = mesh.position[at(faces.nodes[i])];
     if (options.projection == SurfaceProjection::kOff) {
       const Vec3 way = p - placed[i];

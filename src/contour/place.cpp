@@ -76,13 +76,12 @@ bool on_intersections(const Vec3& p, const std::vector<Plane>& planes, Vec3& res
 
 Vec3 onto_interface(const HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
                     std::size_t i, const Vec3& p) {
-  const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
   const auto items = faces.node_quads[i];
   std::vector<Plane> planes;
   merge_planes(mesh, faces, crossings, items, planes);
   Vec3 target;
   if (planes.size() > 1 && on_intersections(p, planes, target)) return target;
-  return on_surface(p, in_cells, crossings, items);
+  return on_surface(p, mesh.per_cell(faces.nodes[i]), crossings, items);
 }
 
 Vec3 onto_geometry(const HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
@@ -95,9 +94,8 @@ Vec3 onto_geometry(const HexMesh& mesh, const Interfaces& faces, const std::vect
 }
 
 Vec3 within_reach(const HexMesh& mesh, LocalId node, const Vec3& grid_position, const Vec3& point) {
-  const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
   Vec3 move = held_on_box(point - grid_position, mesh.box_sides[at(node)]);
-  const double most = largest(scaled(move, in_cells));
+  const double most = largest(scaled(move, mesh.per_cell(node)));
   const double farthest = mesh.box_sides[at(node)] != 0 ? kFarthestOnBox : kFarthest;
   if (most > farthest) move = (farthest / most) * move;
   return grid_position + move;

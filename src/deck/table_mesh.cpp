@@ -37,6 +37,7 @@ constexpr EnumValue kAdaptTypes[] = {{"off", kAdaptOff},
                                      {"coarsen", kAdaptCoarsen},
                                      {"resample", kAdaptResample},
                                      {"material", kAdaptMaterial}};
+constexpr EnumValue kRemainders[] = {{"drop", kRemainderDrop}, {"pad", kRemainderPad}};
 
 constexpr Group kV = Group::kOverlay;
 constexpr std::string_view kNoCount = "none", kNoBound = "from the input";
@@ -458,14 +459,22 @@ constexpr OptionSpec kAdaptOptions[] = {
      .group = kA,
      .slot = &Deck::adapt_type,
      .help = "Criterion of refinement",
-     .about = "What decides where cells are split or kept.",
+     .about = "What decides where cells are split or kept. Distances (1 to 3) are those of the geometry and "
+              "the plane that "
+              "stands for it in a cell; vfrac_average looks at the fractions of the eight parts of a cell, "
+              "coarsen at those of "
+              "dense data; material refines what adapt_material names.",
+     .supported = true,
      .values = kAdaptTypes},
     {.name = "adapt_threshold",
      .flag = "-AT",
      .group = kA,
      .slot = &Deck::adapt_threshold,
      .help = "Threshold of adapt_type",
-     .about = "A cell is split when its measure is larger.",
+     .about = "A cell is split when its measure is larger: a length for the types 1 to 3 (0.25 cells / "
+              "adapt_levels^2), a "
+              "difference of volume fractions for the others (0.0001).",
+     .supported = true,
      .lo = 0,
      .unset = "depends on adapt_type"},
     {.name = "adapt_levels",
@@ -474,6 +483,7 @@ constexpr OptionSpec kAdaptOptions[] = {
      .slot = &Deck::adapt_levels,
      .help = "Levels of refinement",
      .about = "How often a cell may be halved, or doubled when coarsening.",
+     .supported = true,
      .lo = 0,
      .hi = 20},
     {.name = "adapt_material",
@@ -481,33 +491,49 @@ constexpr OptionSpec kAdaptOptions[] = {
      .group = kA,
      .slot = &Deck::adapt_material,
      .help = "Material to refine",
-     .about =
-         "Id, levels, threshold of the volume fraction, distance and one more number; one line per material.",
+     .about = "Id, levels, threshold of the volume fraction, distance and one more number without effect; "
+              "one line per material. "
+              "All but the id may be left out.",
+     .supported = true,
      .unset = "none"},
+    {.name = "adapt_remainder",
+     .flag = "",
+     .group = kA,
+     .slot = &Deck::adapt_remainder,
+     .help = "What becomes of odd cells when coarsening",
+     .about = "Dense data whose cells are not a multiple of 2^adapt_levels: the rest at the high sides is "
+              "dropped, or the "
+              "grid is filled up with copies of the last layer (pad). An option of this program.",
+     .supported = true,
+     .values = kRemainders},
     {.name = "adapt_export",
      .flag = "-AE",
      .group = kA,
      .slot = &Deck::adapt_export,
      .help = "Write the refined grid",
-     .about = "Writes the refined grid as Exodus as well."},
+     .about = "Writes the refined grid before the contouring as well, as <exodus_file>_adapt.",
+     .supported = true},
     {.name = "adapt_non_manifold",
      .flag = "-ANM",
      .group = kA,
      .slot = &Deck::adapt_non_manifold,
      .help = "Refine at non-manifold places",
-     .about = "Splits cells where materials meet non-manifoldly."},
+     .about = "Splits cells where materials meet non-manifoldly.",
+     .supported = true},
     {.name = "adapt_load_balance",
      .flag = "-ALB",
      .group = kA,
      .slot = &Deck::adapt_load_balance,
      .help = "Rebalance after refinement",
-     .about = "Distributes the cells anew after refinement."},
+     .about = "Distributes the cells anew after refinement, by their number. The mesh is the same.",
+     .supported = true},
     {.name = "adapt_memory_stats",
      .flag = "-AMS",
      .group = kA,
      .slot = &Deck::adapt_memory_stats,
      .help = "Report memory per level",
-     .about = "Prints the memory used after each step of refinement."},
+     .about = "Prints cells and memory of each level of refinement.",
+     .supported = true},
 };
 
 }  // namespace

@@ -3,41 +3,71 @@
 
 #include "filter/edits.hpp"
 #include "filter/ring.hpp"
+#include "sculpt/mesh/edge_walk.hpp"
 
 namespace sculpt {
 namespace {
 
 constexpr int kMostForeignFaces = 3;  // of a changed cell; more would be a protrusion
 
-// Whether two faces of a lattice cell have an edge in common.
-constexpr bool adjacent(std::size_t f, std::size_t g) { return kFaceAxis[f] != kFaceAxis[g]; }
-
 }  // namespace
+
+// Whether the interface at a face goes on across its edge a-b: another face there is between the same two
+// materials. Not where the edge is on the box.
+bool Collapses::goes_on(HexFace face, LocalId a, LocalId b) const {
+  const HexMesh& mesh = edits_.mesh;
+  const LocalId last = edits_.neighbours[at(face.hex)][static_cast<std::size_t>(face.face)];
+  const std::int32_t p = edits_.material(face.hex), q = edits_.material(last);
+  bool again = false;
+  for (LocalId cell = face.hex; cell != last;) {
+    face = other_side(mesh, edits_.neighbours, across_edge(mesh, face, a, b));
+    if (face.hex == kNone) return false;
+    const std::int32_t from = edits_.material(cell), to = edits_.material(face.hex);
+    again = again || (from == p && to == q) || (from == q && to == p);
+    cell = face.hex;
+  }
+  return again;
+}
 
 // Whether the interface at a face of a cell goes on across none of its edges: the two materials touch here
 // only.
-bool Collapses::alone(LocalId cell, std::size_t face) const {
-  const LocalId other = edits_.neighbours[at(cell)][face];
-  if (other == kNone || edits_.material(other) == edits_.material(cell)) return false;
-  const std::int32_t a = edits_.material(cell), b = edits_.material(other);
-  for (std::size_t t = 0; t < 6; ++t) {
-    if (!adjacent(face, t)) continue;
-    const LocalId beside = edits_.neighbours[at(cell)][t], beyond = edits_.neighbours[at(other)][t];
-    if (beside == kNone || beyond == kNone) continue;  // the edge is on the box
-    const std::int32_t c = edits_.material(beside), d = edits_.material(beyond);
-    if (c == b || d == a || (c == a && d == b)) return false;
-  }
+bool Collapses::alone(HexFace face) const {
+  const LocalId other = edits_.neighbours[at(face.hex)][static_cast<std::size_t>(face.face)];
+  if (other == kNone || edits_.material(other) == edits_.material(face.hex)) return false;
+  const auto nodes = face_nodes(edits_.mesh, face);
+  for (std::size_t v = 0; v < 4; ++v)
+    if (goes_on(face, nodes[v], nodes[(v + 1) % 4])) return false;
   return true;
 }
 
-// Faces that are alone among those whose answer depends on the material of the cell.
+// Faces that are alone among those at an edge of a cell that begin beyond one of its faces there. closed:
+// tells whether the way around the edge came back to the cell.
+int Collapses::alone_beyond(HexFace face, LocalId a, LocalId b, bool& closed) const {
+  const LocalId cell = face.hex;
+  int count = 0;
+  for (;;) {
+    face = other_side(edits_.mesh, edits_.neighbours, face);
+    closed = face.hex == cell;
+    if (closed || face.hex == kNone) return count;
+    face = across_edge(edits_.mesh, face, a, b);
+    count += edits_.neighbours[at(face.hex)][static_cast<std::size_t>(face.face)] != cell && alone(face);
+  }
+}
+
+// Faces that are alone among those whose answer depends on the material of the cell: its own and all at its
+// edges.
 int Collapses::alone_around(LocalId cell) const {
   int count = 0;
-  for (std::size_t f = 0; f < 6; ++f) {
-    count += alone(cell, f);
-    const LocalId beside = edits_.neighbours[at(cell)][f];
-    for (std::size_t t = 0; t < 6 && beside != kNone; ++t) count += adjacent(f, t) && alone(beside, t);
-  }
+  for (int f = 0; f < 6; ++f) count += alone({cell, f});
+  for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t b = a + 1; b < 8; ++b) {
+      const auto& faces = kEdgeFaces[a][b];
+      if (faces[0] < 0) continue;
+      const Hex& hex = edits_.mesh.hexes[at(cell)];
+      bool closed = false;
+      count += alone_beyond({cell, faces[0]}, hex[a], hex[b], closed);
+      if (!closed) count += alone_beyond({cell, faces[1]}, hex[a], hex[b], closed);
+    }
   return count;
 }
 
@@ -69,7 +99,7 @@ std::vector<LocalId> Collapses::instances_within_reach(LocalId cell) const {
 // may not become a protrusion, and the nodes must stay manifold.
 std::int32_t Collapses::better(LocalId cell) const {
   bool any = false;
-  for (std::size_t f = 0; f < 6; ++f) any = any || alone(cell, f);
+  for (int f = 0; f < 6; ++f) any = any || alone({cell, f});
   if (!any || edits_.locked(cell)) return kNone;
   const std::int32_t own = edits_.material(cell);
   const auto faces_towards = [&](std::int32_t m) {

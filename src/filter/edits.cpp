@@ -36,13 +36,6 @@ double Edits::loss(LocalId cell, std::int32_t to) const {
          kBias * ((1 << std::min<int>(changes_[at(cell)], 6)) - 1);
 }
 
-std::uint64_t Edits::lot(LocalId cell) const {  // splitmix64 of the id
-  std::uint64_t z = static_cast<std::uint64_t>(mesh.hex_homes()[at(cell)]) + 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31);
-}
-
 void Edits::change(LocalId cell, std::int32_t to) {
   mesh.material[at(cell)] = to;
   if (changes_[at(cell)] < 255) ++changes_[at(cell)];

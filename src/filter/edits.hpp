@@ -6,8 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "sculpt/base/lot.hpp"
 #include "sculpt/filter/filter.hpp"
 #include "sculpt/mesh/adjacency.hpp"
+#include "sculpt/mesh/edge_walk.hpp"
 #include "sculpt/mesh/hex_mesh.hpp"
 
 namespace sculpt {
@@ -40,8 +42,8 @@ class Edits {
   // Loss of fraction when a cell goes to a material, and a price for having changed before that grows as 2^n
   // - 1 (the report, section 2.7.1: changes must stick).
   [[nodiscard]] double loss(LocalId cell, std::int32_t to) const;
-  // Without any order that spreads through the grid: ties between cells are broken by this, then by id.
-  [[nodiscard]] std::uint64_t lot(LocalId cell) const;
+  // Ties between cells are broken by this, then by id.
+  [[nodiscard]] std::uint64_t lot(LocalId cell) const { return lot_of(mesh.hex_homes()[at(cell)]); }
 
   // Price of taking a cell from a rare material: 1 / its cells in the input of the filter (0 for one that had
   // none).
@@ -156,14 +158,16 @@ class Protrusions : public CellChanges {
   bool at_box_;
 };
 
-// Collapses small surfaces: contacts of two materials in a single face. Lattices only.
+// Collapses small surfaces: contacts of two materials in a single face.
 class Collapses : public CellChanges {
  public:
   explicit Collapses(Edits& edits) : CellChanges(edits, 2) {}
 
  private:
   [[nodiscard]] std::int32_t better(LocalId cell) const override;
-  [[nodiscard]] bool alone(LocalId cell, std::size_t face) const;
+  [[nodiscard]] bool goes_on(HexFace face, LocalId a, LocalId b) const;
+  [[nodiscard]] bool alone(HexFace face) const;
+  [[nodiscard]] int alone_beyond(HexFace face, LocalId a, LocalId b, bool& closed) const;
   [[nodiscard]] int alone_around(LocalId cell) const;
   [[nodiscard]] bool manifold_around(LocalId cell) const;
   [[nodiscard]] std::vector<LocalId> instances_within_reach(LocalId cell) const;

@@ -14,8 +14,9 @@ constexpr double kNoClaim = std::numeric_limits<double>::infinity();
 constexpr int kPasses = 60;        // of the cost-driven repair, then the last resort
 constexpr int kLockedPasses = 90;  // then locked cells are no longer spared
 constexpr int kReversalPasses = 10;
-constexpr double kFrozen = 1000;   // cost that keeps a cell from changing again
-constexpr double kContact = 0.05;  // cost per face neighbour of the old (+) and of the new (-) material
+constexpr std::size_t kMostFree = 12;  // cells of a ring whose materials are all tried
+constexpr double kFrozen = 1000;       // cost that keeps a cell from changing again
+constexpr double kContact = 0.05;      // cost per face neighbour of the old (+) and of the new (-) material
 constexpr double kRare = 0.5;  // cost of taking the only cell of a material; the gain of giving it another
 constexpr double kReversed = 0.1;  // squared sine: faces within 18 degrees of being back to back
 
@@ -117,7 +118,7 @@ class ManifoldRepair::Work {
       for (std::uint64_t t = ring.touching[c] >> c >> 1 << c << 1; t != 0; t &= t - 1) {
         const auto d = static_cast<std::size_t>(std::countr_zero(t));
         if (material[c] == material[d]) continue;
-        const Vec3 across = unit(centre(ring.cell[d]) - centre(ring.cell[c]));
+        const Vec3 across = normal_towards(ring.cell[c], ring.cell[d]);
         if (material[c] < material[d])
           sides.push_back({material[c], material[d], across});
         else
@@ -130,10 +131,15 @@ class ManifoldRepair::Work {
           return true;
     return false;
   }
-  Vec3 centre(LocalId cell) const {
-    Vec3 sum;
-    for (const Vec3& p : mesh_.corners(cell)) sum += 0.125 * p;
-    return sum;
+  // Unit normal of the face between two cells.
+  Vec3 normal_towards(LocalId cell, LocalId other) const {
+    const auto& beside = neighbours_[at(cell)];
+    const auto face = std::find(beside.begin(), beside.end(), other) - beside.begin();
+    std::array<Vec3, 4> p;
+    for (std::size_t v = 0; v < 4; ++v)
+      p[v] = mesh_.position[at(
+          mesh_.hexes[at(cell)][static_cast<std::size_t>(kFaces[static_cast<std::size_t>(face)][v])])];
+    return unit(cross(p[2] - p[0], p[3] - p[1]));
   }
 
   std::span<const std::int32_t> materials(std::span<const std::int32_t> items) const {
@@ -273,15 +279,15 @@ class ManifoldRepair::Work {
     return ring.manifold({changed.data(), material.size()});
   }
   // Where locked cells stand in the way: the free cells go to one or two materials, whichever way is manifold
-  // with fewest changes. `otherwise` when there is none.
+  // with fewest changes. `otherwise` when there is none or there are too many to try.
   Proposal around_locked(const Ring& ring, std::span<const std::int32_t> material,
                          const std::vector<std::int32_t>& present, const Proposal& otherwise) const {
     Proposal best = otherwise;
-    if (ring.size > 8) return best;
-    int fewest = 9;
+    int fewest = ring.size + 1;
     std::vector<int> free;
     for (int c = 0; c < ring.size; ++c)
       if (!edits_.locked(ring.cell[static_cast<std::size_t>(c)])) free.push_back(c);
+    if (free.size() > kMostFree) return best;
     for (const std::int32_t a : present)
       for (const std::int32_t b : present)
         for (unsigned mask = 0; a < b && mask < 1U << free.size(); ++mask) {

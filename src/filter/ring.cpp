@@ -2,7 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "sculpt/base/error.hpp"
+#include "sculpt/mesh/edge_walk.hpp"
 
 namespace sculpt {
 namespace {
@@ -21,8 +24,8 @@ constexpr std::array<std::uint64_t, 8> kBlock = [] {
 Ring ring_of(const HexMesh& mesh, const FaceNeighbours& neighbours, const NodeHexes& around, LocalId node) {
   const auto items = around[node];
   if (items.size() > Ring::kMost)
-    throw Error(fmt::format("node {} is shared by {} cells; at most {} are supported",
-                            mesh.node_id[static_cast<std::size_t>(node)], items.size(), Ring::kMost));
+    throw Error(fmt::format("node {} is shared by {} cells; at most {} are supported", mesh.node_id[at(node)],
+                            items.size(), Ring::kMost));
   Ring ring;
   ring.size = static_cast<int>(items.size());
   for (std::size_t i = 0; i < items.size(); ++i) ring.cell[i] = items[i] / 8;
@@ -30,12 +33,17 @@ Ring ring_of(const HexMesh& mesh, const FaceNeighbours& neighbours, const NodeHe
     std::copy(kBlock.begin(), kBlock.end(), ring.touching.begin());
     return ring;
   }
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    ring.touching[i] = 0;
-    for (const LocalId other : neighbours[static_cast<std::size_t>(ring.cell[i])])
-      for (std::size_t j = 0; j < items.size(); ++j)
-        if (ring.cell[j] == other) ring.touching[i] |= std::uint64_t{1} << j;
-  }
+  std::fill_n(ring.touching.begin(), items.size(), 0);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    for (const int f : kCornerFaces[static_cast<std::size_t>(items[i] % 8)]) {
+      const LocalId other = neighbours[at(ring.cell[i])][static_cast<std::size_t>(f)];
+      if (other <= ring.cell[i]) continue;  // none, or met from there
+      for (std::size_t j = i + 1; j < items.size(); ++j)
+        if (ring.cell[j] == other) {
+          ring.touching[i] |= std::uint64_t{1} << j;
+          ring.touching[j] |= std::uint64_t{1} << i;
+        }
+    }
   return ring;
 }
 

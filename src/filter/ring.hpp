@@ -13,7 +13,7 @@ struct Ring {
   static constexpr int kMost = 64;
   int size = 0;
   std::array<LocalId, kMost> cell;
-  std::array<std::uint64_t, kMost> touching;  // cells sharing a face with this one
+  std::array<std::uint64_t, kMost> touching;  // cells sharing a face at the node with this one
 
   [[nodiscard]] std::uint64_t all() const {
     return size == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << size) - 1;

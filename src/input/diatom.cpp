@@ -31,14 +31,16 @@ class DiatomSource final : public MaterialSource {
     MaterialData data;
     data.table = table_;
     collectively(comm, "inserting volume fractions", [&] {
-      data.fractions =
-          shape_fractions(grid_, wanted[static_cast<std::size_t>(comm.rank())], *shapes_, outside_);
+      const auto field = shape_field(shapes_, grid_, outside_);
+      data.fractions = measure_cells(grid_, wanted[static_cast<std::size_t>(comm.rank())], *field);
     });
     return data;
   }
 
-  [[nodiscard]] std::optional<Fractions> measure(const Grid& grid, const IndexBox& box) const override {
-    return shape_fractions(grid, box, *shapes_, outside_);
+  [[nodiscard]] bool is_data() const override { return false; }
+
+  [[nodiscard]] std::unique_ptr<MaterialField> field(Fractions, const IndexBox&) const override {
+    return shape_field(shapes_, grid_, outside_);
   }
 
   [[nodiscard]] ExactSurface exact_surface() const override { return surfaces_of(shapes_, grid_); }

@@ -1,24 +1,21 @@
 #pragma once
-// Volume fractions of analytic shapes on the cells of a grid. Where shapes overlap, the one inserted first
-// wins.
+// Volume fractions of analytic shapes in boxes, the cells of a grid among them.
 #include <memory>
-#include <span>
+#include <vector>
 
-#include "sculpt/geom/shape.hpp"
+#include "input/inserted_shape.hpp"
 #include "sculpt/grid/grid.hpp"
 #include "sculpt/input/material_source.hpp"
 
 namespace sculpt {
 
-struct InsertedShape {
-  std::unique_ptr<Shape> shape;
-  std::int32_t material = 0;  // dense index
-};
+// Local. The field of MaterialSource for shapes; `outside` is the material of what no shape covers. Boxes
+// that one material fills are exact, the others are measured as CellMeter says. The grid tells where most
+// boxes will be.
+[[nodiscard]] std::unique_ptr<MaterialField> shape_field(
+    std::shared_ptr<const std::vector<InsertedShape>> shapes, const Grid& grid, std::int32_t outside);
 
-// Local. The fractions of the cells of the box, x fastest; `outside` is the material of what no shape covers.
-// Cells that one material fills are exact; the others are within about 1e-4 of the cell. A cell's values do
-// not depend on the box.
-[[nodiscard]] Fractions shape_fractions(const Grid& grid, const IndexBox& box,
-                                        std::span<const InsertedShape> shapes, std::int32_t outside);
+// Local. The fractions of the cells of a box of the grid, x fastest.
+[[nodiscard]] Fractions measure_cells(const Grid& grid, const IndexBox& box, MaterialField& field);
 
 }  // namespace sculpt

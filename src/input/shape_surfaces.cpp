@@ -1,42 +1,29 @@
 #include "input/shape_surfaces.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <span>
+
+#include "input/shape_index.hpp"
 
 namespace sculpt {
 namespace {
 
-constexpr std::int64_t kMostBins = 16;  // per axis
-constexpr double kReach = 1.5;          // in cells
+constexpr double kReach = 1.5;  // in cells
 
 class ShapeSurfaces {
  public:
   ShapeSurfaces(std::shared_ptr<const std::vector<InsertedShape>> shapes, const Grid& grid)
-      : shapes_(std::move(shapes)) {
-    reach_ = kReach * largest(grid.cell_size());
-    for (std::size_t d = 0; d < 3; ++d) {
-      bins_[d] = std::min(kMostBins, grid.cells[d]);
-      lo_[d] = grid.planes[d].front();
-      width_[d] = (grid.planes[d].back() - lo_[d]) / static_cast<double>(bins_[d]);
-    }
-    near_.resize(static_cast<std::size_t>(bins_[0] * bins_[1] * bins_[2]));
-    const Vec3 margin{reach_, reach_, reach_};
-    for (std::size_t s = 0; s < shapes_->size(); ++s) {
-      const Box box = (*shapes_)[s].shape->bounds();
-      const Index3 from = bin_of(box.lo - margin), to = bin_of(box.hi + margin);
-      for (std::int64_t k = from[2]; k <= to[2]; ++k)
-        for (std::int64_t j = from[1]; j <= to[1]; ++j)
-          for (std::int64_t i = from[0]; i <= to[0]; ++i) near_[number({i, j, k})].push_back(s);
-    }
-  }
+      : shapes_(std::move(shapes)),
+        reach_(kReach * largest(grid.cell_size())),
+        index_(*shapes_, space_of(grid), reach_) {}
 
   [[nodiscard]] std::optional<Vec3> nearest(const Vec3& p, std::int32_t a, std::int32_t b) const {
     std::optional<Vec3> best;
     double least = reach_;
-    const std::vector<std::size_t>& candidates = near_[number(bin_of(p))];
-    for (const std::size_t s : candidates) {
-      const InsertedShape& shape = (*shapes_)[s];
-      if (shape.material != a && shape.material != b) continue;
+    const std::span<const std::int32_t> candidates = index_.around(p);
+    for (const std::int32_t s : candidates) {
+      const InsertedShape& shape = at(s);
+      if ((shape.material != a && shape.material != b) || !index_.is_near(s, p)) continue;
       const std::optional<Vec3> q = shape.shape->nearest_on_surface(p);
       if (!q || !(norm(*q - p) < least) || hidden(*q, s, candidates)) continue;
       least = norm(*q - p);
@@ -46,29 +33,21 @@ class ShapeSurfaces {
   }
 
  private:
-  [[nodiscard]] Index3 bin_of(const Vec3& p) const {
-    Index3 bin{};
-    for (std::size_t d = 0; d < 3; ++d)
-      bin[d] = static_cast<std::int64_t>(
-          std::clamp(std::floor((p[d] - lo_[d]) / width_[d]), 0.0, static_cast<double>(bins_[d] - 1)));
-    return bin;
+  [[nodiscard]] const InsertedShape& at(std::int32_t s) const {
+    return (*shapes_)[static_cast<std::size_t>(s)];
   }
-  [[nodiscard]] std::size_t number(const Index3& bin) const {
-    return static_cast<std::size_t>(bin[0] + bins_[0] * (bin[1] + bins_[1] * bin[2]));
-  }
-  [[nodiscard]] bool hidden(const Vec3& q, std::size_t of, const std::vector<std::size_t>& candidates) const {
-    return std::any_of(candidates.begin(), candidates.end(), [&](std::size_t s) {
-      const InsertedShape& other = (*shapes_)[s];
-      return s != of && (s < of || other.material == (*shapes_)[of].material) &&
-             other.shape->contains({q, q});
+  // Every shape that holds q is among the candidates, as q lies within reach of the point they were found
+  // for.
+  [[nodiscard]] bool hidden(const Vec3& q, std::int32_t of, std::span<const std::int32_t> candidates) const {
+    return std::any_of(candidates.begin(), candidates.end(), [&](std::int32_t s) {
+      return s != of && (s < of || at(s).material == at(of).material) && index_.is_near(s, q) &&
+             at(s).shape->contains({q, q});
     });
   }
 
   std::shared_ptr<const std::vector<InsertedShape>> shapes_;
-  double reach_ = 0;
-  Index3 bins_{};
-  Vec3 lo_, width_;
-  std::vector<std::vector<std::size_t>> near_;  // per bin: shapes whose surroundings overlap it, ascending
+  double reach_;
+  ShapeIndex index_;
 };
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "input/shape_fractions.hpp"
+#include "input/inserted_shape.hpp"
+#include "sculpt/grid/grid.hpp"
+#include "sculpt/input/material_source.hpp"
 
 namespace sculpt {
 

@@ -46,25 +46,65 @@ FaceNeighbours face_neighbours(const HexMesh& mesh) {
   return all;
 }
 
+namespace {
+
+// A face that waits for its neighbour is a link of a list, kept in its own place of the result: -2 - the next
+// face of the list (8 * hex + face), or kNone at the end. Faces are listed at the smallest of their nodes.
+constexpr std::int32_t kLinks = -2;
+
+// The corner of the face with the smallest node (index into kFaces).
+std::size_t least_corner(const Hex& hex, std::size_t face) {
+  const auto& c = kFaces[face];
+  const auto node = [&](std::size_t v) { return hex[static_cast<std::size_t>(c[v])]; };
+  const std::size_t a = node(1) < node(0) ? 1 : 0, b = node(3) < node(2) ? 3 : 2;
+  return node(b) < node(a) ? b : a;
+}
+
+// The four nodes of a face around its smallest: the smallest, its two neighbours ascending, the opposite one.
+std::array<LocalId, 4> face_key(const Hex& hex, std::size_t face) {
+  const std::size_t v = least_corner(hex, face);
+  const auto node = [&](std::size_t turn) {
+    return hex[static_cast<std::size_t>(kFaces[face][(v + turn) % 4])];
+  };
+  return {node(0), std::min(node(1), node(3)), std::max(node(1), node(3)), node(2)};
+}
+
+// Takes the face with this key out of the list of waiting ones that begins at `link`: 8 * hex + face, or
+// kNone.
+std::int32_t take_waiting(const HexMesh& mesh, FaceNeighbours& all, std::int32_t* link,
+                          const std::array<LocalId, 4>& key) {
+  while (*link != kNone) {
+    const std::int32_t face = kLinks - *link;
+    std::int32_t& next = all[at(face / 8)][static_cast<std::size_t>(face % 8)];
+    if (face_key(mesh.hexes[at(face / 8)], static_cast<std::size_t>(face % 8)) == key) {
+      *link = next;
+      return face;
+    }
+    link = &next;
+  }
+  return kNone;
+}
+
+}  // namespace
+
 FaceNeighbours face_neighbours_of_any(const HexMesh& mesh) {
   FaceNeighbours all(mesh.hexes.size());
-  for (auto& faces : all) faces.fill(kNone);
-  const NodeHexes around(mesh);
-  for (std::size_t h = 0; h < mesh.hexes.size(); ++h)
+  std::vector<std::int32_t> first(mesh.position.size(),
+                                  kNone);  // link to the first face that waits at a node
+  for (LocalId h = 0; h < mesh.size(); ++h)
     for (std::size_t f = 0; f < 6; ++f) {
-      if (all[h][f] != kNone) continue;
-      std::array<LocalId, 4> nodes;
-      for (std::size_t c = 0; c < 4; ++c) nodes[c] = mesh.hexes[h][static_cast<std::size_t>(kFaces[f][c])];
-      for (const std::int32_t item : around[nodes[0]]) {
-        const LocalId other = item / 8;
-        if (other == static_cast<LocalId>(h)) continue;
-        const int face = face_with_nodes(mesh.hexes[static_cast<std::size_t>(other)], nodes);
-        if (face < 0) continue;
-        all[h][f] = other;
-        all[static_cast<std::size_t>(other)][static_cast<std::size_t>(face)] = static_cast<LocalId>(h);
-        break;
+      const std::array<LocalId, 4> key = face_key(mesh.hexes[at(h)], f);
+      const std::int32_t face = take_waiting(mesh, all, &first[at(key[0])], key);
+      if (face == kNone) {
+        all[at(h)][f] = first[at(key[0])];
+        first[at(key[0])] = kLinks - (8 * h + static_cast<LocalId>(f));
+      } else {
+        all[at(h)][f] = face / 8;
+        all[at(face / 8)][static_cast<std::size_t>(face % 8)] = h;
       }
     }
+  for (auto& faces : all)
+    for (LocalId& other : faces) other = std::max(other, kNone);  // those that still wait have none
   return all;
 }
 

@@ -24,6 +24,7 @@ std::vector<LocalId> drop_unused_nodes(HexMesh& mesh) {
     compact(mesh.node_home, node);
     compact(mesh.node_image, node);
   }
+  if (!mesh.level.empty()) compact(mesh.level, node);
   for (Hex& h : mesh.hexes)
     for (LocalId& n : h) n = node[at(n)];
   return node;

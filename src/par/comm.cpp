@@ -1,5 +1,6 @@
 #include "sculpt/par/comm.hpp"
 
+#include <algorithm>
 #include <climits>
 #include <cstring>
 #include <new>
@@ -37,6 +38,13 @@ double Comm::max(double value) const { return reduced(comm_, value, MPI_DOUBLE, 
 
 void Comm::sum(std::span<std::int64_t> values) const {
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_SUM, comm_);
+}
+
+void Comm::bit_or(std::span<std::uint64_t> values) const {
+  constexpr std::size_t kPiece = std::size_t{1} << 24;  // counts of MPI are 32 bits wide
+  for (std::size_t at = 0; at < values.size(); at += kPiece)
+    MPI_Allreduce(MPI_IN_PLACE, values.data() + at, static_cast<int>(std::min(kPiece, values.size() - at)),
+                  MPI_UINT64_T, MPI_BOR, comm_);
 }
 
 std::int64_t Comm::exclusive_sum(std::int64_t value) const {

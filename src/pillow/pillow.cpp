@@ -4,8 +4,8 @@
 #include <bit>
 #include <map>
 
-#include "pillow/edge_walk.hpp"
 #include "sculpt/mesh/adjacency.hpp"
+#include "sculpt/mesh/edge_walk.hpp"
 #include "sculpt/mesh/edit.hpp"
 
 namespace sculpt {
@@ -92,6 +92,7 @@ class Pillower {
       out.node_home.push_back(node_factor_ * mesh_.node_home[at(from)] + copy);
       out.node_image.push_back(mesh_.node_image[at(from)]);
     }
+    if (!mesh_.level.empty()) out.level.push_back(mesh_.level[at(from)]);
     result_.source.push_back(from);
     result_.copied.push_back(copy != 0);
   }

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "pillow/edge_walk.hpp"
 #include "sculpt/mesh/adjacency.hpp"
+#include "sculpt/mesh/edge_walk.hpp"
 #include "sculpt/pillow/pillow.hpp"
 
 namespace sculpt {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "pipeline/thickening.hpp"
+#include "sculpt/base/fixed_point.hpp"
 #include "sculpt/filter/filter.hpp"
 #include "sculpt/filter/thicken.hpp"
 #include "sculpt/vfrac/fractions.hpp"
@@ -108,17 +109,22 @@ void report_lost(const Comm& comm, const HexMesh& cells, const std::vector<std::
              lost > 10 ? " ..." : "");
 }
 
-// Faces of owned cells towards other materials, per material, all ranks.
+// Faces of owned cells towards other materials, per material, all ranks. Each counts with the volume of its
+// cell, in cells of level 0: what a material gains there with the thickening value.
 std::vector<double> areas(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
                           std::size_t materials) {
-  std::vector<std::int64_t> faces(materials, 0);
+  std::vector<std::int64_t> units(materials, 0);
   for (std::size_t c = 0; c < cells.hexes.size(); ++c) {
     if (cells.layer[c] != 0) continue;
-    for (const LocalId n : neighbours[c])
-      faces[at(cells.material[c])] += n != kNone && cells.material[at(n)] != cells.material[c];
+    std::int64_t faces = 0;
+    for (const LocalId n : neighbours[c]) faces += n != kNone && cells.material[at(n)] != cells.material[c];
+    if (faces > 0)
+      units[at(cells.material[c])] += faces * to_units(cells.volume_in_cells(static_cast<LocalId>(c)));
   }
-  comm.sum(faces);
-  return {faces.begin(), faces.end()};
+  comm.sum(units);
+  std::vector<double> sums;
+  for (const std::int64_t u : units) sums.push_back(from_units(u));
+  return sums;
 }
 
 // The steps from fractions to materials, which may be tried with several thickening values.

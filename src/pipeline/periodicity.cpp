@@ -43,43 +43,39 @@ void compare(const Fractions& inside, std::size_t in, const Fractions& outside, 
     }
 }
 
-// The grid with one more cell at both ends of an axis.
-Grid grown(const Grid& grid, std::size_t axis) {
-  Grid more = grid;
-  std::vector<double>& planes = more.planes[axis];
-  const double period = planes.back() - planes.front(), first = planes[planes.size() - 2] - period,
-               last = planes[1] + period;
-  planes.insert(planes.begin(), first);
-  planes.push_back(last);
-  more.cells[axis] += 2;
-  return more;
+// The place of a cell, some periods away along one axis.
+Box cell_box(const Grid& grid, const Index3& cell, std::size_t axis, int periods) {
+  Box box;
+  for (std::size_t d = 0; d < 3; ++d) {
+    box.lo[d] = grid.planes[d][static_cast<std::size_t>(cell[d])];
+    box.hi[d] = grid.planes[d][static_cast<std::size_t>(cell[d]) + 1];
+  }
+  const double away = periods * (grid.planes[axis].back() - grid.planes[axis].front());
+  box.lo[axis] += away;
+  box.hi[axis] += away;
+  return box;
 }
 
 // Over the owned cells at the periodic sides.
-Difference worst_difference(const MaterialSource& source, const CartesianParts& parts, const IndexBox& owned,
-                            const Fractions& fractions) {
+Difference worst_difference(MaterialField& field, const Grid& grid, const CartesianParts& parts,
+                            const IndexBox& owned, const Fractions& fractions) {
   Difference worst;
-  for (std::size_t d = 0; d < 3; ++d) {
-    if (!parts.periodic[d]) continue;
-    const Grid grid = grown(source.grid(), d);
+  for (std::size_t d = 0; d < 3; ++d)
     for (const bool beyond_high : {false, true}) {
+      if (!parts.periodic[d]) continue;
       IndexBox inside = owned;
       (beyond_high ? inside.hi[d] : inside.lo[d]) = beyond_high ? 1 : parts.cells[d] - 1;
       inside = intersection(inside, owned);
-      if (inside.empty()) continue;
-      IndexBox outside = inside;
-      outside.lo[d] = beyond_high ? parts.cells[d] + 1 : 0;
-      outside.hi[d] = outside.lo[d] + 1;
-      const Fractions measured = source.measure(grid, outside).value();
       for (std::int64_t c = 0; c < inside.size(); ++c) {
         const Index3 cell = inside.cell(c);
         const std::int64_t key =
-            6 * source.grid().cell_id(cell) + static_cast<std::int64_t>(2 * d) + (beyond_high ? 1 : 0);
-        compare(fractions, static_cast<std::size_t>(owned.position(cell)), measured,
-                static_cast<std::size_t>(c), {0, key, d, beyond_high, cell, 0, 0, 0}, worst);
+            6 * grid.cell_id(cell) + static_cast<std::int64_t>(2 * d) + (beyond_high ? 1 : 0);
+        Fractions outside;
+        field.measure(cell_box(grid, cell, d, beyond_high ? 1 : -1), outside);
+        compare(fractions, static_cast<std::size_t>(owned.position(cell)), outside, 0,
+                {0, key, d, beyond_high, cell, 0, 0, 0}, worst);
       }
     }
-  }
   return worst;
 }
 
@@ -127,10 +123,12 @@ std::array<std::array<std::int64_t, 2>, 3> periodic_node_sets(const Deck& deck) 
 void check_period(const Comm& comm, const Deck& deck, const MaterialSource& source,
                   const CartesianParts& parts, const MaterialTable& materials, const Fractions& owned,
                   const Log& log) {
-  if (!source.measure(source.grid(), {})) return;
+  if (source.is_data()) return;
   Difference worst;
-  collectively(comm, "checking the period",
-               [&] { worst = worst_difference(source, parts, parts.owned(comm.rank()), owned); });
+  collectively(comm, "checking the period", [&] {
+    const IndexBox box = parts.owned(comm.rank());
+    worst = worst_difference(*source.field({}, box), source.grid(), parts, box, owned);
+  });
   const double largest = comm.max(worst.value);
   const std::int64_t first =
       comm.min(worst.value == largest ? worst.key : std::numeric_limits<std::int64_t>::max());

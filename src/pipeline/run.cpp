@@ -13,13 +13,13 @@
 #include "pipeline/console.hpp"
 #include "pipeline/interface_geometry.hpp"
 #include "pipeline/layers.hpp"
+#include "pipeline/overlay.hpp"
 #include "pipeline/periodicity.hpp"
 #include "sculpt/base/fixed_point.hpp"
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/contour.hpp"
 #include "sculpt/contour/interface_smoothing.hpp"
-#include "sculpt/distribute/cartesian.hpp"
 #include "sculpt/exo/rank_mesh.hpp"
 #include "sculpt/input/material_source.hpp"
 #include "sculpt/launch/launch.hpp"
@@ -36,71 +36,6 @@
 
 namespace sculpt {
 namespace {
-
-// The overlay mesh with its materials, and its adjacency for the stages that work on it.
-struct Overlay {
-  HexMesh cells;
-  Fractions fractions;
-  MaterialTable materials;
-  FaceNeighbours neighbours;
-  std::optional<NodeHexes> around;
-  Index3 grid{0, 0, 0};      // cells per axis, all ranks
-  Index3 numbered{0, 0, 0};  // those of the grid that gives the cells their ids
-  bool pure = true;          // on all ranks every cell holds one material only
-  ExactSurface exact;        // what the input knows of its surfaces
-};
-
-// The source's grid with the expansion layers around it.
-Grid overlay_grid(const Deck& deck, const Grid& source) {
-  if (deck.micro_expand == 0) return source;
-  const Vec3 h = source.cell_size();
-  Index3 cells = source.cells;
-  Vec3 origin;
-  for (std::size_t d = 0; d < 3; ++d) {
-    cells[d] += 2 * deck.micro_expand;
-    origin[d] = source.planes[d].front() - deck.micro_expand * h[d];
-  }
-  return uniform_grid(cells, origin, h);
-}
-
-Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages) {
-  const auto source = open_source(comm, deck, log);
-  const Grid grid = overlay_grid(deck, source->grid());
-  CartesianParts parts = cut_grid(grid.cells, comm.size(), {deck.iproc, deck.jproc, deck.kproc});
-  parts.periodic = periodic_axes(deck, grid.cells);
-  print_decomposition(log, parts);
-  const int layers = layer_plan(deck).ghost_layers();
-
-  // The ghosts of a periodic grid are no box of the source: their fractions come from their owners.
-  std::vector<IndexBox> wanted;
-  for (int r = 0; r < comm.size(); ++r)
-    wanted.push_back(deck.periodic
-                         ? parts.owned(r)
-                         : source_of(parts.ghosted(r, layers), deck.micro_expand, source->grid().cells));
-  MaterialData data = source->read(comm, wanted);
-  if (deck.periodic && deck.check_periodic)
-    check_period(comm, deck, *source, parts, data.table, data.fractions, log);
-  stages.end("read input");
-
-  Overlay overlay{lattice_mesh(comm, grid, parts, layers),
-                  std::move(data.fractions),
-                  std::move(data.table),
-                  {},
-                  {},
-                  grid.cells,
-                  numbered_grid(parts, layers),
-                  true,
-                  source->exact_surface()};
-  if (deck.periodic) overlay.fractions = with_ghosts(overlay.cells, overlay.fractions);
-  const bool pure = overlay.fractions.material.size() == static_cast<std::size_t>(overlay.fractions.cells());
-  overlay.pure = comm.min(std::int64_t{pure}) == 1;
-  if (deck.micro_expand > 0)
-    overlay.fractions =
-        expand_fractions(overlay.fractions, wanted[static_cast<std::size_t>(comm.rank())],
-                         parts.ghosted(comm.rank(), layers), deck.micro_expand, source->grid().cells);
-  stages.end("distribute");
-  return overlay;
-}
 
 // 1 for every cell that is no part of the mesh.
 std::vector<std::uint8_t> unmeshed_cells(const Deck& deck, const Overlay& overlay) {
@@ -164,7 +99,8 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
   return c;
 }
 
-// Volume of each material, in cells, if the cells were meshed as they are now (stair) or contoured.
+// Volume of each material, in cells of level 0, if the cells were meshed as they are now (stair) or
+// contoured.
 std::vector<double> contoured_volumes(const Comm& comm, const Deck& deck, Overlay& overlay) {
   HexMesh& cells = overlay.cells;
   const std::vector<Vec3> grid = cells.position;
@@ -178,7 +114,8 @@ std::vector<double> contoured_volumes(const Comm& comm, const Deck& deck, Overla
     bool bent = false;
     for (const LocalId n : cells.hexes[at(c)])
       bent = bent || (!shape.faces.index_of.empty() && shape.faces.index_of[at(n)] != kNone);
-    units[at(cells.material[at(c)])] += to_units(bent ? hex_volume(cells.corners(c)) / cell : 1.0);
+    units[at(cells.material[at(c)])] +=
+        to_units(bent ? hex_volume(cells.corners(c)) / cell : cells.volume_in_cells(c));
   }
   comm.sum(units);
   cells.position = grid;
@@ -202,8 +139,9 @@ SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& ov
   const Brep brep = build_brep(comm, overlay.cells, overlay.neighbours, faces);
   log.line("  {} volumes, {} surfaces, {} curves, {} vertices", brep.volumes, brep.surfaces, brep.curves,
            brep.vertices);
-  return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop, overlay.numbered,
-                        deck.gen_sidesets);
+  const bool is_lattice = overlay.cells.lattice[0] != 0;
+  return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop,
+                        is_lattice ? overlay.numbered : Index3{0, 0, 0}, deck.gen_sidesets);
 }
 
 // Smoothing moves volumes a little; materials that were thickened to a volume get the rest of it here.

@@ -66,10 +66,11 @@ SmoothOptions smooth_options(const Deck& deck, bool pure_cells, const Vec3& cell
     s.hold_on_geometry = true;
     s.fidelity = kHeldSurfaces;
   }
-  if (deck.smooth == kSmoothGeoSmooth)
-    s.max_deviation = deck.geo_smooth_max_deviation > 0
-                          ? deck.geo_smooth_max_deviation
-                          : 0.5 * std::min({cell_size.x, cell_size.y, cell_size.z});
+  if (deck.smooth == kSmoothGeoSmooth) {
+    s.deviation_by_level = !(deck.geo_smooth_max_deviation > 0);
+    s.max_deviation = s.deviation_by_level ? 0.5 * std::min({cell_size.x, cell_size.y, cell_size.z})
+                                           : deck.geo_smooth_max_deviation;
+  }
   if (deck.opt_method == kOptJacobi) {
     s.method = OptimisationMethod::kPublished;
     s.laplacian_passes = deck.laplacian_iters;

@@ -8,14 +8,14 @@
 namespace sculpt {
 
 Displacement displacement(const Comm& comm, const HexMesh& mesh, const InterfaceTrack& track) {
-  const Vec3 in_cells{1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
   std::array<std::int64_t, 3> sums{};  // nodes; distances in fixed point
   double from_contour = 0, from_target = 0;
   auto node = mesh.node_id.begin();
   for (std::size_t i = 0; i < track.node.size(); ++i) {
     node = std::lower_bound(node, mesh.node_id.end(), track.node[i]);
     if (node == mesh.node_id.end() || *node != track.node[i]) continue;
-    const Vec3& p = mesh.position[static_cast<std::size_t>(node - mesh.node_id.begin())];
+    const auto n = static_cast<LocalId>(node - mesh.node_id.begin());
+    const Vec3 &p = mesh.position[at(n)], in_cells = mesh.per_cell(n);
     const double c = norm(scaled(p - track.contoured[i], in_cells)),
                  t = norm(scaled(p - track.smoothed[i], in_cells));
     ++sums[0];
@@ -40,9 +40,10 @@ std::vector<double> input_volumes(const Comm& comm, const HexMesh& cells, const 
   std::vector<std::int64_t> units(materials, 0);
   for (std::size_t c = 0; c < cells.hexes.size(); ++c) {
     if (cells.layer[c] != 0) continue;
+    const double volume = cells.volume_in_cells(static_cast<LocalId>(c));
     for (auto e = static_cast<std::size_t>(fractions.offset[c]);
          e < static_cast<std::size_t>(fractions.offset[c + 1]); ++e)
-      units[at(fractions.material[e])] += to_units(fractions.value[e]);
+      units[at(fractions.material[e])] += to_units(volume * fractions.value[e]);
   }
   comm.sum(units);
   std::vector<double> volume;

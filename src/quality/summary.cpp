@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// To cells of level 0.
 Vec3 per_cell(const HexMesh& mesh) {
   return {1 / mesh.cell_size.x, 1 / mesh.cell_size.y, 1 / mesh.cell_size.z};
 }
@@ -100,7 +101,7 @@ Tally tally_owned(const HexMesh& mesh, std::size_t materials) {
       tally.add_quality(mesh, batch[i], q.scaled_jacobian[i]);
       tally.volume[at(mesh.material[at(batch[i])])] += to_units(size.volume[i]);
       tally.shortest = std::min(tally.shortest, q.shortest_edge[i]);
-      tally.shortest_cells = std::min(tally.shortest_cells, size.shortest_edge[i]);
+      tally.shortest_cells = std::min(tally.shortest_cells, size.shortest_edge[i] / mesh.hex_unit(batch[i]));
     }
   });
   return tally;
@@ -115,7 +116,7 @@ ListedHex described(const HexMesh& mesh, LocalId h, double q) {
   listed.scaled_jacobian = q;
   listed.shortest_edge = shortest_edge(p);
   listed.valid = is_positive_inside(p);
-  const Vec3 unit = per_cell(mesh);
+  const Vec3 unit = (1 / mesh.hex_unit(h)) * per_cell(mesh);
   const double cells = unit.x * unit.y * unit.z;
   double least = kInfinity;
   listed.least_determinant = kInfinity;

@@ -127,10 +127,9 @@ std::int64_t ActiveSet::sweep(const std::function<bool(LocalId)>& step, double f
       ++moves;
       moved_.push_back(n);
       changed_[at(n)] = 1;
-      const Vec3 move = mesh_.position[at(n)] - before;
-      far_moved_[at(n)] = dot(move, move) > far * far;
+      far_moved_[at(n)] = is_far(n, mesh_.position[at(n)] - before, far);
     }
-    exchange_moves(far * far, static_cast<int>(colour));
+    exchange_moves(far, static_cast<int>(colour));
   }
   std::fill(near_.begin(), near_.end(), std::uint8_t{0});
   std::vector<LocalId> far_nodes;
@@ -154,7 +153,7 @@ void ActiveSet::fetch_ahead(LocalId hexes_of, LocalId positions_of) const {
     for (const LocalId n : mesh_.hexes[at(item / 8)]) __builtin_prefetch(&mesh_.position[at(n)]);
 }
 
-void ActiveSet::exchange_moves(double far_squared, int colour) {
+void ActiveSet::exchange_moves(double far, int colour) {
   using G = GhostExchange;
   mesh_.node_exchange.send_records(
       [&](LocalId n, std::vector<char>& bytes) {
@@ -166,8 +165,7 @@ void ActiveSet::exchange_moves(double far_squared, int colour) {
         const Vec3 before = p;
         G::take(from, p);
         p = position_of_ghost(mesh_, ghost, p);
-        const Vec3 move = p - before;
-        far_moved_[at(ghost)] = dot(move, move) > far_squared;
+        far_moved_[at(ghost)] = is_far(ghost, p - before, far);
         moved_.push_back(ghost);
         return from;
       });
@@ -202,7 +200,7 @@ std::int64_t ActiveSet::mark_short(double edge) {
     for (std::size_t i = 0; i < size; ++i) batch[i] = first + static_cast<LocalId>(i);
     const HexQuality q = quality_of(mesh_.hexes, mesh_.position, {batch.data(), size});
     for (std::size_t i = 0; i < size; ++i) {
-      if (!(q.shortest_edge[i] < edge)) continue;
+      if (!(q.shortest_edge[i] < edge * mesh_.hex_unit(batch[i]))) continue;
       quality_[at(batch[i])] = 0;
       count += mesh_.layer[at(batch[i])] == 0;
     }
@@ -230,7 +228,8 @@ double ActiveSet::least_determinant(const Vec3& scale) const {
   for (LocalId h = 0; h < mesh_.size(); ++h) {
     if (mesh_.layer[at(h)] != 0 || quality_[at(h)] >= 0.1F) continue;
     HexCorners p = mesh_.corners(h);
-    for (Vec3& corner : p) corner = scaled(corner, scale);
+    const Vec3 in_cells = (1 / mesh_.hex_unit(h)) * scale;
+    for (Vec3& corner : p) corner = scaled(corner, in_cells);
     for (int c = 0; c < 8; ++c) least = std::min(least, corner_determinant(p, c));
   }
   return comm().min(least);

@@ -25,8 +25,8 @@ class ActiveSet {
   }  // scaled Jacobian per local hex
 
   // Chooses the owned nodes of hexes below `quality` and of `layers` layers of hexes around them. only_near:
-  // of these the ones in a hex with a node that moved by more than `far` in the last sweep. Returns their
-  // number on all ranks.
+  // of these the ones in a hex with a node that moved far in the last sweep. Returns their number on all
+  // ranks.
   std::int64_t choose(double quality, int layers, bool only_near);
 
   // Chooses the owned nodes for which wanted(node) holds. Returns their number on all ranks.
@@ -35,8 +35,8 @@ class ActiveSet {
   [[nodiscard]] std::vector<LocalId> chosen() const;
 
   // Moves the chosen nodes: step(node) changes the position of one owned node and tells whether it did. Nodes
-  // of one colour are visited in ascending order before the ghosts learn of their moves. Returns the moves on
-  // all ranks.
+  // of one colour are visited in ascending order before the ghosts learn of their moves. far: the length of a
+  // move, at level 0, that the neighbours shall hear of (choose). Returns the moves on all ranks.
   std::int64_t sweep(const std::function<bool(LocalId)>& step, double far);
 
   struct Worst {
@@ -45,7 +45,8 @@ class ActiveSet {
   };
   // Over the hexes of all ranks, each counted once.
   [[nodiscard]] Worst worst(double target) const;
-  // Smallest corner determinant, in cells, of the hexes below 0.1; 1 when there are none.
+  // Smallest corner determinant, in cells, of the hexes below 0.1; 1 when there are none. scale: 1 / cell
+  // size, at level 0.
   [[nodiscard]] double least_determinant(const Vec3& scale) const;
   void refresh_all_quality();
   // After moves that were made outside sweep() and are known to the ghosts: nodes that moved, ghosts
@@ -54,7 +55,7 @@ class ActiveSet {
   // Gives hexes whose Jacobian is not positive somewhere inside the quality 0 until a node of theirs moves.
   // Returns their number on all ranks.
   std::int64_t mark_folded();
-  // Gives hexes with an edge shorter than this the quality 0, until a node of theirs moves or
+  // Gives hexes with an edge shorter than this (at level 0) the quality 0, until a node of theirs moves or
   // refresh_all_quality(). Returns their number on all ranks.
   std::int64_t mark_short(double edge);
 
@@ -63,7 +64,11 @@ class ActiveSet {
   // ones.
   void spread(std::vector<std::uint8_t>& marks, std::vector<LocalId>& front);
   void fetch_ahead(LocalId hexes_of, LocalId positions_of) const;
-  void exchange_moves(double far_squared, int colour);
+  void exchange_moves(double far, int colour);
+  [[nodiscard]] bool is_far(LocalId node, const Vec3& move, double far) const {
+    far *= mesh_.unit(node);
+    return dot(move, move) > far * far;
+  }
   void refresh_dirty(LocalId first, LocalId last);
 
   HexMesh& mesh_;
@@ -72,7 +77,7 @@ class ActiveSet {
   std::vector<std::uint8_t> marked_;          // per node
   std::vector<std::uint8_t> changed_;         // per node: to be told to the ghosts
   std::vector<std::uint8_t> near_;            // per node: see choose
-  std::vector<std::uint8_t> far_moved_;       // per node: moved by more than `far` in this sweep
+  std::vector<std::uint8_t> far_moved_;       // per node: moved far in this sweep
   std::vector<std::vector<LocalId>> chosen_;  // per colour
   std::vector<LocalId> moved_;                // in this sweep, ghosts included
   std::vector<std::uint8_t> dirty_;           // per hex

@@ -72,7 +72,7 @@ Vec3 Geometry::onto(LocalId entry, const Vec3& p) const {
 }
 
 Vec3 NodeStep::deviation(LocalId entry, LocalId node) const {
-  return scaled(mesh_.position[at(node)] - geometry_.target[at(entry)], scale_);
+  return scaled(mesh_.position[at(node)] - geometry_.target[at(entry)], scale_at(node));
 }
 
 double NodeStep::price(LocalId node, const StepRules& rules) const {
@@ -93,19 +93,21 @@ Vec3 NodeStep::towards_geometry(LocalId node, const Vec3& from) const {
 // A node that is beyond the limit already may come nearer.
 bool NodeStep::too_far(LocalId node, const Vec3& step, double farthest) const {
   const Vec3& here = mesh_.position[at(node)];
+  const Vec3 scale = scale_at(node);
   Vec3 there = here;
-  for (std::size_t d = 0; d < 3; ++d) there[d] += step[d] / scale_[d];
+  for (std::size_t d = 0; d < 3; ++d) there[d] += step[d] / scale[d];
   const double distance = norm(towards_geometry(node, there));
-  return distance > farthest && distance >= norm(towards_geometry(node, here));
+  return distance > limit(node, farthest) && distance >= norm(towards_geometry(node, here));
 }
 
 bool NodeStep::fit(LocalId node, const StepRules& rules) {
-  star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale_, Star::Target::kPresent);
+  const Vec3 scale = scale_at(node);
+  star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale, Star::Target::kPresent);
   const Star::Shape now = star_.shape({});
   Vec3& p = mesh_.position[at(node)];
   Vec3 move = towards_geometry(node, p);
   for (int halving = 0; halving < 4; ++halving, move = 0.5 * move) {
-    const Star::Shape there = star_.shape(scaled(move, scale_));
+    const Star::Shape there = star_.shape(scaled(move, scale));
     if (there.scaled_jacobian < std::min(now.scaled_jacobian, rules.least_quality) ||
         there.edge < std::min(now.edge, rules.least_edge))
       continue;
@@ -120,19 +122,21 @@ bool NodeStep::pull_back(LocalId node, double farthest) {
   constexpr double kInside = 0.98;
   if (geometry_.index[at(node)] == kNone) return false;
   Vec3& p = mesh_.position[at(node)];
+  const double most = limit(node, farthest);
   bool moved = false;
   for (int i = 0; i < kTries; ++i) {
     const Vec3 back = towards_geometry(node, p);
     const double distance = norm(back);
-    if (!(distance > farthest)) break;
-    p += i < kCareful ? (1 - kInside * farthest / distance) * back : back;
+    if (!(distance > most)) break;
+    p += i < kCareful ? (1 - kInside * most / distance) * back : back;
     moved = true;
   }
   return moved;
 }
 
 bool NodeStep::newton(LocalId node, const StepRules& rules) {
-  star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale_, rules.target_lengths);
+  const Vec3 scale = scale_at(node);
+  star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale, rules.target_lengths);
   Derivatives at0 = star_.derivatives(rules.power, rules.eps);
   const LocalId entry = geometry_.index[at(node)];
   const double price_of = entry == kNone ? 0 : price(node, rules);
@@ -175,7 +179,7 @@ bool NodeStep::newton(LocalId node, const StepRules& rules) {
     }
     Vec3& p = mesh_.position[at(node)];
     for (std::size_t d = 0; d < 3; ++d)
-      if (step[d] != 0) p[d] += step[d] / scale_[d];
+      if (step[d] != 0) p[d] += step[d] / scale[d];
     return true;
   }
   return false;
@@ -186,16 +190,17 @@ bool NodeStep::climb(LocalId node, const StepRules& rules) {
   constexpr int kMost = 10;
   bool any = false;
   Vec3& p = mesh_.position[at(node)];
+  const Vec3 scale = scale_at(node);
   const std::uint8_t sides = mesh_.box_sides[at(node)];
   const bool limited = geometry_.index[at(node)] != kNone && std::isfinite(rules.farthest);
   for (int round = 0; round < 5; ++round) {
-    star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale_, Star::Target::kPresent);
+    star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale, Star::Target::kPresent);
     const Star::Shape now = star_.shape({});
     // Gradients of the corners near the worst one: differences of the exact corner values.
     std::vector<std::pair<double, Vec3>> corners;
     for (const std::int32_t item : around_[node]) {
       HexCorners hex = mesh_.corners(item / 8);
-      for (Vec3& corner : hex) corner = scaled(corner - p, scale_);
+      for (Vec3& corner : hex) corner = scaled(corner - p, scale);
       const auto moving = static_cast<std::size_t>(item % 8);
       std::array<int, 4> near{item % 8, kCornerNeighbours[moving][0], kCornerNeighbours[moving][1],
                               kCornerNeighbours[moving][2]};
@@ -237,7 +242,7 @@ bool NodeStep::climb(LocalId node, const StepRules& rules) {
         continue;
       if (limited && too_far(node, step, rules.farthest)) continue;
       for (std::size_t d = 0; d < 3; ++d)
-        if (step[d] != 0) p[d] += step[d] / scale_[d];
+        if (step[d] != 0) p[d] += step[d] / scale[d];
       raised = any = true;
     }
     if (!raised) break;

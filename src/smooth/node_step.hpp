@@ -19,23 +19,29 @@ struct StepRules {
   double release_curves_below =
       -1;  // curve nodes with a worse corner deviate at a tenth of the price; negative: tenfold
   double farthest =
-      std::numeric_limits<double>::infinity();  // of interface nodes from the geometry, a length
+      std::numeric_limits<double>::infinity();  // of interface nodes from the geometry: see limit()
 };
 
 class NodeStep {
  public:
-  NodeStep(HexMesh& mesh, const NodeHexes& around, const Geometry& geometry)
-      : mesh_(mesh), around_(around), geometry_(geometry) {}
+  // limits_by_level: limits of deviation are those at level 0.
+  NodeStep(HexMesh& mesh, const NodeHexes& around, const Geometry& geometry, bool limits_by_level)
+      : mesh_(mesh), around_(around), geometry_(geometry), limits_by_level_(limits_by_level) {}
 
-  // Coordinates are multiplied by this before lengths are compared: 1 / cell size.
+  // Coordinates are multiplied by this before lengths are compared: 1 / cell size, at level 0.
   void set_scale(const Vec3& scale) { scale_ = scale; }
   // All return whether the node was moved.
   bool newton(LocalId node, const StepRules& rules);
   bool climb(LocalId node, const StepRules& rules);
   // An interface node goes towards its point of the geometry as far as quality and edges allow.
   bool fit(LocalId node, const StepRules& rules);
-  // An interface node farther than this from the geometry is pulled back to that distance.
+  // An interface node farther than the limit from the geometry is pulled back to that distance.
   bool pull_back(LocalId node, double farthest);
+
+  // A limit of deviation at a node, a length.
+  [[nodiscard]] double limit(LocalId node, double farthest) const {
+    return limits_by_level_ ? farthest * mesh_.unit(node) : farthest;
+  }
 
   // From an owned interface node to its point of the geometry, along its box sides.
   [[nodiscard]] Vec3 towards_geometry(LocalId node, const Vec3& from) const;
@@ -44,10 +50,13 @@ class NodeStep {
   [[nodiscard]] bool too_far(LocalId node, const Vec3& step, double farthest) const;
   [[nodiscard]] double price(LocalId node, const StepRules& rules) const;
   [[nodiscard]] Vec3 deviation(LocalId entry, LocalId node) const;
+  // What turns lengths at a node into cells.
+  [[nodiscard]] Vec3 scale_at(LocalId node) const { return (1 / mesh_.unit(node)) * scale_; }
 
   HexMesh& mesh_;
   const NodeHexes& around_;
   const Geometry& geometry_;
+  bool limits_by_level_;
   Vec3 scale_{1, 1, 1};
   Star star_;
 };

@@ -26,11 +26,12 @@ class NodeOptimiser {
   NodeOptimiser(const ActiveSet& set, const Geometry& geometry, const SmoothOptions& options)
       : set_(set), mesh_(set.mesh()), geometry_(geometry), options_(options) {
     const Vec3& h = mesh_.cell_size;
-    scale_ = 1 / std::cbrt(h.x * h.y * h.z);
+    per_cell_ = 1 / std::cbrt(h.x * h.y * h.z);
   }
 
   Proposal propose(LocalId node) {
     const Vec3 start = mesh_.position[at(node)];
+    scale_ = per_cell_ / mesh_.unit(node);
     Proposal proposal{start, 0, 0, 0};
     objective_.gather(mesh_, set_.around()[node], node, scale_, options_.size_aware);
     const NodeObjective::Value first = objective_.at_displacement({});
@@ -142,7 +143,8 @@ class NodeOptimiser {
   const HexMesh& mesh_;
   const Geometry& geometry_;
   const SmoothOptions& options_;
-  double scale_ = 1;
+  double per_cell_ = 1;  // at level 0
+  double scale_ = 1;     // at the node that is looked at
   NodeObjective objective_;
 };
 

@@ -44,13 +44,14 @@ class Phases {
         options_(options),
         log_(log),
         set_(mesh),
-        step_(mesh, set_.around(), geometry_),
+        step_(mesh, set_.around(), geometry_, options.deviation_by_level),
         farthest_(options.max_deviation),
         floor_(options.target) {
     const Vec3& h = mesh.cell_size;
     per_axis_ = {1 / h.x, 1 / h.y, 1 / h.z};
     size_ = h.x == h.y && h.y == h.z ? h.x : std::cbrt(h.x * h.y * h.z);
     isotropic_ = {1 / size_, 1 / size_, 1 / size_};
+    far_ = kFar * size_;
   }
 
   void run() {
@@ -62,8 +63,9 @@ class Phases {
       optimise_as_published(set_, geometry_, options_, log_);
     else
       optimise();
-    if (options_.hold_on_geometry) without_folding([&] { fit(kFitted * size_); });
-    if (limited()) without_folding([&] { fit(farthest_); });
+    if (options_.hold_on_geometry)
+      without_folding([&] { fit([&](LocalId n) { return kFitted * size_at(n); }); });
+    if (limited()) without_folding([&] { fit([&](LocalId n) { return step_.limit(n, farthest_); }); });
     if (options_.guarantee_rounds > 0) guarantee();
     if (options_.hold_on_geometry || limited()) report_deviation();
   }
@@ -74,6 +76,7 @@ class Phases {
   }
 
   [[nodiscard]] bool limited() const { return std::isfinite(options_.max_deviation); }
+  [[nodiscard]] double size_at(LocalId n) const { return size_ * mesh_.unit(n); }
   [[nodiscard]] bool on_interface(LocalId n) const { return geometry_.index[at(n)] != kNone; }
 
   void optimise() {
@@ -98,7 +101,7 @@ class Phases {
       if (hexes == 0) break;
       log_.line("Lengthening Iter: {}, hexes with an edge below {:g} cells: {}", i + 1, kShort, hexes);
       set_.choose(kFolded, i / 2, false);
-      sweep(rules, kFar);
+      sweep(rules, far_);
     }
     set_.refresh_all_quality();
   }
@@ -200,7 +203,7 @@ class Phases {
       if (i > 0 && i % 5 == 0) layers = std::min(layers + 1, 4);  // and farther around
       // The first sweeps settle the bulk; what resists them is worked on in its own neighbourhood.
       set_.choose(i < kBulkSweeps ? 0.1 : 1e-3, layers, false);
-      sweep(rules, kFar);
+      sweep(rules, far_);
       report("Untangling", i + 1);
     }
   }
@@ -215,7 +218,7 @@ class Phases {
             if (std::isfinite(farthest_)) step_.pull_back(n, farthest_);
             return true;
           },
-          kFar);
+          far_);
   }
   static double next_eps(double worst, double eps, bool first) {
     if (first) eps = worst < 1e-4 ? std::sqrt(1e-12 + 0.04 * worst * worst) + 1e-2 : 1e-2;
@@ -236,7 +239,7 @@ class Phases {
       const std::int64_t nodes = set_.choose(options_.improve_below, 1, i > 0);
       if (i == 0) first = nodes;
       if (nodes == 0 || (i > 0 && nodes < first / 50)) break;
-      const std::int64_t moves = sweep(rules, kFar);
+      const std::int64_t moves = sweep(rules, far_);
       report("Jacobi Opt", i + 1);
       if (moves < nodes / 50) break;
     }
@@ -268,7 +271,7 @@ class Phases {
           std::pow(1 / aim.target, rules.power / 4.0);  // keeps pace with the energy at the target
       for (int i = 0; i < 4 && aim.done < aim.sweeps; ++i) {
         if (set_.choose(aim.target + kMargin, 1, false) == 0) return;
-        const std::int64_t moves = sweep(rules, kFar);
+        const std::int64_t moves = sweep(rules, far_);
         report_target(aim, moves);
         if (moves == 0) break;
       }
@@ -281,12 +284,12 @@ class Phases {
     const auto step = [&](LocalId n) { return (freely || !on_interface(n)) && step_.climb(n, rules); };
     for (int i = 0; i < 24 && aim.done < aim.sweeps; ++i) {
       if (set_.choose(aim.target, 0, false) == 0) return;
-      const std::int64_t moves = moves_of(step, kFar);
+      const std::int64_t moves = moves_of(step, far_);
       report_target(aim, moves);
       if (moves == 0) return;
       if (i % 4 == 3) {
         set_.choose(aim.target, 1, false);
-        sweep(rules, kFar);
+        sweep(rules, far_);
       }
     }
   }
@@ -324,14 +327,14 @@ class Phases {
     for (LocalId n = 0; n < mesh_.nodes(); ++n) {
       const Vec3& p = mesh_.position[at(n)];
       if (on_interface(n) && set_.owned(n) && !(p == before[at(n)]))
-        farthest = std::max(farthest, norm(p - geometry_.target[at(geometry_.index[at(n)])]) / size_);
+        farthest = std::max(farthest, norm(p - geometry_.target[at(geometry_.index[at(n)])]) / size_at(n));
     }
     return set_.comm().max(farthest);
   }
 
-  // Interface nodes farther than `tolerance` from the geometry go back to it as far as the floor allows;
+  // Interface nodes farther than their tolerance from the geometry go back to it as far as the floor allows;
   // between the rounds the nodes around them make room.
-  void fit(double tolerance) {
+  void fit(const std::function<double(LocalId)>& tolerance) {
     step_.set_scale(isotropic_);
     StepRules rules = raising_rules(options_.fidelity);
     StepRules room = rules;
@@ -342,16 +345,17 @@ class Phases {
       room.target_lengths = i % 2 == 0 ? Star::Target::kUnit : Star::Target::kPresent;
       room.power = i % 2 == 0 ? 1 : 2;
       set_.choose_if([&](LocalId n) { return !on_interface(n) && shares_hex(n, off); });
-      const std::int64_t around = moves_of([&](LocalId n) { return step_.newton(n, room); }, kFar);
+      const std::int64_t around = moves_of([&](LocalId n) { return step_.newton(n, room); }, far_);
       if (moves == 0 && around == 0) break;
     }
   }
   // Marks the interface nodes, ghosts included, that are farther than this from the geometry.
-  [[nodiscard]] std::vector<std::uint8_t> off_the_geometry(double tolerance) const {
+  [[nodiscard]] std::vector<std::uint8_t> off_the_geometry(
+      const std::function<double(LocalId)>& tolerance) const {
     std::vector<std::uint8_t> off(mesh_.position.size(), 0);
     for (LocalId n = 0; n < mesh_.nodes(); ++n)
       off[at(n)] = on_interface(n) && set_.owned(n) &&
-                   norm(step_.towards_geometry(n, mesh_.position[at(n)])) > tolerance;
+                   norm(step_.towards_geometry(n, mesh_.position[at(n)])) > tolerance(n);
     mesh_.node_exchange.copy_to_ghosts(off);
     return off;
   }
@@ -367,13 +371,14 @@ class Phases {
     for (LocalId n = 0; n < mesh_.nodes(); ++n) {
       if (!on_interface(n) || !set_.owned(n)) continue;
       const double distance = norm(step_.towards_geometry(n, mesh_.position[at(n)]));
-      farthest = std::max(farthest, distance);
-      beyond += distance > options_.max_deviation;
+      farthest = std::max(farthest, distance / size_at(n));
+      beyond += distance > step_.limit(n, options_.max_deviation);
     }
-    log_.line("Interface nodes are at most {:f} cells from the geometry", set_.comm().max(farthest) / size_);
+    log_.line("Interface nodes are at most {:f} cells from the geometry", set_.comm().max(farthest));
     beyond = set_.comm().sum(beyond);
     if (beyond > 0)
-      log_.line("WARNING: {} interface nodes are farther from it than {:g}", beyond, options_.max_deviation);
+      log_.line("WARNING: {} interface nodes are farther from it than {:g}{}", beyond, options_.max_deviation,
+                options_.deviation_by_level && !mesh_.level.empty() ? " at level 0" : "");
   }
 
   // The Jacobian can fail inside a hex whose corners are fine: more shape for the nodes of such hexes. Tells
@@ -390,7 +395,7 @@ class Phases {
       else
         rules.target_lengths = Star::Target::kUnit;  // folds go with edges of very unequal length
       set_.choose(kFolded, i / 2, false);
-      sweep(rules, kFar);
+      sweep(rules, far_);
     }
   }
   [[nodiscard]] StepRules raising_rules(double fidelity) const {
@@ -418,7 +423,8 @@ class Phases {
   ActiveSet set_;
   NodeStep step_;
   Vec3 per_axis_, isotropic_;
-  double size_ = 1;           // of a cell
+  double size_ = 1;           // of a cell at level 0
+  double far_ = 0;            // kFar as a length at level 0
   double farthest_;           // limit of deviation of the present phase
   double floor_;              // quality that no step may fall below
   bool never_folds_ = false;  // no step may fold a hex inside

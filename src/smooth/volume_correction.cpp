@@ -77,14 +77,14 @@ class Corrector {
     }
     for (std::size_t n = 0; n < start.size(); ++n) {
       const Vec3 way = in_cells(mesh_.position[n] - start[n]);
-      result.farthest = std::max(result.farthest, norm(way));
+      result.farthest = std::max(result.farthest, norm(way) / mesh_.unit(static_cast<LocalId>(n)));
     }
     result.farthest = comm().max(result.farthest);
     return result;
   }
 
  private:
-  struct Gradient {  // of the volume of one material, at one node, in cells
+  struct Gradient {  // of the volume of one material, at one node, in cells of level 0, as all here
     LocalId place;
     Vec3 by;
   };
@@ -165,10 +165,11 @@ class Corrector {
       if (of[n].empty() || mesh_.node_owner[n] != comm().rank()) continue;
       const double scale = largest_norm(of[n]);
       if (scale < 1e-6) continue;
+      const double unit = mesh_.unit(static_cast<LocalId>(n)), farthest = kFarthest * unit;
       Vec3 way;
-      for (const Gradient& g : of[n]) way += (pressure[at(g.place)] / scale) * g.by;
+      for (const Gradient& g : of[n]) way += (unit * pressure[at(g.place)] / scale) * g.by;
       const double length = norm(way);
-      if (length > kFarthest) way = (kFarthest / length) * way;
+      if (length > farthest) way = (farthest / length) * way;
       for (std::size_t d = 0; d < 3; ++d)
         if (way[d] != 0) mesh_.position[n][d] += way[d] * mesh_.cell_size[d];
     }
@@ -187,7 +188,8 @@ class Corrector {
       if (scale < 1e-6) continue;
       for (const Gradient& a : of[node])
         for (const Gradient& b : of[node])
-          units[at(a.place) * n + at(b.place)] += to_units(dot(a.by, b.by) / scale);
+          units[at(a.place) * n + at(b.place)] +=
+              to_units(mesh_.unit(static_cast<LocalId>(node)) * dot(a.by, b.by) / scale);
     }
     comm().sum(units);
     std::vector<double> pressure(n, 0);
@@ -213,7 +215,8 @@ class Corrector {
       for (std::size_t k = 0; k < near_.size(); ++k) {
         const double quality = is[k / 8].scaled_jacobian[k % 8], edge = is[k / 8].shortest_edge[k % 8];
         const double least = std::min(was[k / 8].scaled_jacobian[k % 8], least_quality_);
-        const double least_edge = std::min(was[k / 8].shortest_edge[k % 8], kLeastEdge * std::cbrt(cell_));
+        const double least_edge = std::min(was[k / 8].shortest_edge[k % 8],
+                                           kLeastEdge * std::cbrt(cell_) * mesh_.hex_unit(near_[k]));
         if (quality >= least && edge >= least_edge) continue;
         harmed += mesh_.layer[at(near_[k])] == 0;
         for (const LocalId n : mesh_.hexes[at(near_[k])]) back[at(n)] = 1;

@@ -39,20 +39,17 @@ Fractions expand_fractions(const Fractions& data, const IndexBox& source_box, co
 
 Fractions with_ghosts(const HexMesh& cells, const Fractions& owned) {
   using G = GhostExchange;
-  std::vector<LocalId> place(cells.hexes.size(), kNone);  // in `owned` or `received`
-  LocalId next = 0;
+  std::vector<std::size_t> place(
+      cells.hexes.size());  // of an owned cell in its list, of a ghost in `received`
+  std::size_t next = 0;
   for (std::size_t c = 0; c < place.size(); ++c)
     if (cells.layer[c] == 0) place[c] = next++;
-  const auto first_of = [](const Fractions& f, LocalId c) {
-    return static_cast<std::size_t>(f.offset[at(c)]);
-  };
   Fractions received;
-  LocalId arrived = 0;
   cells.hex_exchange.send_records(
       [&](LocalId c, std::vector<char>& bytes) {
-        const std::size_t first = first_of(owned, place[at(c)]), last = first_of(owned, place[at(c)] + 1);
+        const std::int64_t first = owned.offset[place[at(c)]], last = owned.offset[place[at(c)] + 1];
         G::append(bytes, static_cast<std::int32_t>(last - first));
-        for (std::size_t e = first; e < last; ++e) {
+        for (auto e = static_cast<std::size_t>(first); e < static_cast<std::size_t>(last); ++e) {
           G::append(bytes, owned.material[e]);
           G::append(bytes, owned.value[e]);
         }
@@ -67,15 +64,16 @@ Fractions with_ghosts(const HexMesh& cells, const Fractions& owned) {
           G::take(from, value);
           received.add(material, value);
         }
+        place[at(ghost)] = static_cast<std::size_t>(received.cells());
         received.end_cell();
-        place[at(ghost)] = arrived++;
         return from;
       });
   Fractions all;
   all.reserve(place.size(), owned.material.size() + received.material.size());
   for (std::size_t c = 0; c < place.size(); ++c) {
     const Fractions& from = cells.layer[c] == 0 ? owned : received;
-    for (std::size_t e = first_of(from, place[c]); e < first_of(from, place[c] + 1); ++e)
+    for (auto e = static_cast<std::size_t>(from.offset[place[c]]);
+         e < static_cast<std::size_t>(from.offset[place[c] + 1]); ++e)
       all.add(from.material[e], from.value[e]);
     all.end_cell();
   }

@@ -51,8 +51,8 @@ class Planner {
     const BoxFaces box = trace_box_faces(comm_, cells_, neighbours_, brep_.volume);
     add_inner([&](const InterfaceQuad& q, std::size_t i, bool) {
       const std::int64_t surface = brep_.surface[i];
-      // The cell before the plane: on a lattice always the first.
-      const bool upward = kFaceSign[static_cast<std::size_t>(q.face)] > 0;
+      // The cell before the plane: on a lattice always the first; elsewhere nothing is before.
+      const bool upward = grid_[0] == 0 || kFaceSign[static_cast<std::size_t>(q.face)] > 0;
       note(surface, place(q.cell[0], q.face, cells_.hex_id[at(q.cell[upward ? 0 : 1])]));
       return surface;
     });

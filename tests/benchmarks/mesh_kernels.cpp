@@ -5,6 +5,7 @@
 #include "contour/gradient.hpp"
 #include "filter/ring.hpp"
 #include "grain_case.hpp"
+#include "sculpt/brep/brep.hpp"
 #include "smooth/star.hpp"
 
 namespace sculpt {
@@ -85,6 +86,8 @@ BENCHMARK(scaled_jacobians)->Unit(benchmark::kMillisecond);
 
 void gradient_stencil(benchmark::State& state) {
   const GrainCase& g = grains();
+  HexMesh cells = g.cells;
+  if (state.range(0) == 0) cells.lattice = {0, 0, 0};
   std::vector<LocalId> at_interfaces;
   for (LocalId c = 0; c < g.cells.size(); ++c) {
     const auto own = static_cast<std::size_t>(c);
@@ -93,15 +96,17 @@ void gradient_stencil(benchmark::State& state) {
         }))
       at_interfaces.push_back(c);
   }
-  GradientStencil stencil(g.cells, g.fractions, g.around);
+  GradientStencil stencil(cells, g.fractions, g.around);
   for (auto round : state)
     for (const LocalId c : at_interfaces) benchmark::DoNotOptimize(stencil.at(c).data());
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(at_interfaces.size()));
 }
-BENCHMARK(gradient_stencil)->Unit(benchmark::kMillisecond);
+BENCHMARK(gradient_stencil)->ArgName("lattice")->Arg(1)->Arg(0)->Unit(benchmark::kMillisecond);
 
 void manifold_rings(benchmark::State& state) {
   const GrainCase& g = grains();
+  HexMesh cells = g.cells;
+  if (state.range(0) == 0) cells.lattice = {0, 0, 0};
   std::array<std::int32_t, Ring::kMost> material{};
   for (auto round : state) {
     int bad = 0;
@@ -109,13 +114,45 @@ void manifold_rings(benchmark::State& state) {
       const auto items = g.around[n];
       for (std::size_t i = 0; i < items.size(); ++i)
         material[i] = g.cells.material[static_cast<std::size_t>(items[i] / 8)];
-      bad += !ring_of(g.cells, g.neighbours, g.around, n).manifold({material.data(), items.size()});
+      bad += !ring_of(cells, g.neighbours, g.around, n).manifold({material.data(), items.size()});
     }
     benchmark::DoNotOptimize(bad);
   }
   state.SetItemsProcessed(state.iterations() * g.cells.nodes());
 }
-BENCHMARK(manifold_rings)->Unit(benchmark::kMillisecond);
+BENCHMARK(manifold_rings)->ArgName("lattice")->Arg(1)->Arg(0)->Unit(benchmark::kMillisecond);
+
+// A lattice that does not know that it is one.
+HexMesh general_cells(int n) {
+  HexMesh mesh = GrainCase(n).cells;
+  mesh.lattice = {0, 0, 0};
+  return mesh;
+}
+
+void face_neighbours_of_general_cells(benchmark::State& state) {
+  const HexMesh mesh = general_cells(static_cast<int>(state.range(0)));
+  for (auto round : state) benchmark::DoNotOptimize(face_neighbours(mesh).data());
+  state.SetItemsProcessed(state.iterations() * mesh.size());
+}
+BENCHMARK(face_neighbours_of_general_cells)->Arg(40)->Arg(100)->Unit(benchmark::kMillisecond);
+
+void node_hexes(benchmark::State& state) {
+  const HexMesh mesh = general_cells(static_cast<int>(state.range(0)));
+  for (auto round : state) {
+    const NodeHexes around(mesh);
+    benchmark::DoNotOptimize(around[0].data());
+  }
+  state.SetItemsProcessed(state.iterations() * mesh.size());
+}
+BENCHMARK(node_hexes)->Arg(100)->Unit(benchmark::kMillisecond);
+
+void volumes_of_general_cells(benchmark::State& state) {
+  const HexMesh mesh = general_cells(static_cast<int>(state.range(0)));
+  const FaceNeighbours neighbours = face_neighbours(mesh);
+  for (auto round : state) benchmark::DoNotOptimize(build_brep(Comm::self(), mesh, neighbours, {}).volumes);
+  state.SetItemsProcessed(state.iterations() * mesh.size());
+}
+BENCHMARK(volumes_of_general_cells)->Arg(100)->Unit(benchmark::kMillisecond);
 
 void pillow_grains(benchmark::State& state) {
   const GrainCase grain_case(static_cast<int>(state.range(0)));

@@ -75,6 +75,18 @@ TEST(AnyInput, GivesASoundMeshThatFillsTheBox) {
   }
 }
 
+// Half cells of a grid of doubled cells are the cells of the grid, to the last bit after every stage.
+TEST(AnyInput, IsTheSameAtAnyLevel) {
+  for (std::uint64_t n = 0; n < kCases; n += 2) {
+    const Case input = random_case(n + n / 4 % 2);
+    const StagesResult at0 = run_stages(Comm::self(), at_level(input, 0)),
+                       at2 = run_stages(Comm::self(), at_level(input, 2));
+    for (std::size_t i = 0; i < at0.checksums.size(); ++i)
+      EXPECT_EQ(at0.checksums[i].checksum, at2.checksums[i].checksum)
+          << input.name << ", after " << at0.checksums[i].stage;
+  }
+}
+
 TEST(AnyInput, GivesASoundMeshWithoutItsVoid) {
   for (std::uint64_t n = 0; n < kCases; n += 3) {
     const Case input = random_case(n);

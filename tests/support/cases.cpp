@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace sculpt::test {
 namespace {
@@ -135,6 +136,38 @@ Case half_space(const Index3& cells, const Vec3& normal, double distance) {
         const Vec3 corner{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
         add_two(f, part_above(corner, normal, distance));
       }};
+}
+
+Case at_level(Case input, int level) {
+  input.level = [level](const Index3&) { return static_cast<std::uint8_t>(level); };
+  input.cell_size = std::ldexp(1.0, level) * input.grid.cell_size();
+  return input;
+}
+
+Case graded(const Index3& cells, std::int64_t fine, const std::function<bool(const Vec3&)>& inside) {
+  Case input{fmt::format("graded {}x{}x{}", cells[0], cells[1], cells[2]), unit_grid(cells), 2, {}};
+  for (auto& planes : input.grid.planes)
+    for (std::size_t i = static_cast<std::size_t>(fine); i + 1 < planes.size(); ++i)
+      planes[i + 1] = planes[i] + 0.5;
+  input.level = [fine](const Index3& n) {
+    return static_cast<std::uint8_t>(n[0] >= fine || n[1] >= fine || n[2] >= fine);
+  };
+  input.cell_size = {1, 1, 1};
+  input.fill = [planes = input.grid.planes, inside](const Index3& c, Fractions& f) {
+    constexpr int kPoints = 8;
+    int count = 0;
+    for (int s = 0; s < kPoints * kPoints * kPoints; ++s) {
+      const std::array<int, 3> p{s % kPoints, s / kPoints % kPoints, s / kPoints / kPoints};
+      Vec3 at;
+      for (std::size_t d = 0; d < 3; ++d) {
+        const auto i = static_cast<std::size_t>(c[d]);
+        at[d] = planes[d][i] + (planes[d][i + 1] - planes[d][i]) * (p[d] + 0.5) / kPoints;
+      }
+      count += inside(at);
+    }
+    add_two(f, static_cast<double>(count) / (kPoints * kPoints * kPoints));
+  };
+  return input;
 }
 
 }  // namespace sculpt::test

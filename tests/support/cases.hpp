@@ -19,6 +19,10 @@ struct Case {
   std::function<void(const Index3&, Fractions&)> fill;  // adds the entries of one cell, not its end
   bool pure = false;                                    // one material per cell
   std::array<bool, 3> periodic{false, false, false};    // axes
+  // Of cells of several sizes the level of a grid node, and the cell size at level 0. The mesh of such a case
+  // is no lattice.
+  std::function<std::uint8_t(const Index3&)> level{};
+  Vec3 cell_size{};
 };
 // The same input, periodic in some axes.
 [[nodiscard]] Case periodic(Case input, const std::array<bool, 3>& axes = {true, true, true});
@@ -47,5 +51,12 @@ struct Case {
 // Material 1 where normal . x > distance, exact fractions. Unit cells; no component of the unit normal near
 // 0.
 [[nodiscard]] Case half_space(const Index3& cells, const Vec3& normal, double distance);
+
+// The same on a mesh that is no lattice, whose nodes all have this level.
+[[nodiscard]] Case at_level(Case input, int level);
+// Material 1 where inside(point), by 8^3 points per cell. Unit cells up to the index `fine` of each axis,
+// cells of half that size beyond.
+[[nodiscard]] Case graded(const Index3& cells, std::int64_t fine,
+                          const std::function<bool(const Vec3&)>& inside);
 
 }  // namespace sculpt::test

@@ -1,11 +1,13 @@
 #include "support/stages.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/interface_geometry.hpp"
 #include "pipeline/layers.hpp"
 #include "sculpt/contour/contour.hpp"
 #include "sculpt/distribute/cartesian.hpp"
+#include "sculpt/mesh/colour.hpp"
 #include "sculpt/pillow/pillow.hpp"
 #include "sculpt/vfrac/fractions.hpp"
 #include "support/mesh_checks.hpp"
@@ -16,6 +18,13 @@ Overlay overlay(const Comm& comm, const Case& input, int layers) {
   parts.periodic = input.periodic;
   Overlay o{lattice_mesh(comm, input.grid, parts, layers), {}};
   o.fractions = with_ghosts(o.cells, fractions_in(input, parts.owned(comm.rank())));
+  if (input.level) {
+    o.cells.lattice = {0, 0, 0};
+    o.cells.cell_size = input.cell_size;
+    const IndexBox nodes{{0, 0, 0},
+                         {input.grid.cells[0] + 1, input.grid.cells[1] + 1, input.grid.cells[2] + 1}};
+    for (const GlobalId n : o.cells.node_id) o.cells.level.push_back(input.level(nodes.cell(n)));
+  }
   assign_materials(o.cells, o.fractions, face_neighbours(o.cells));
   return o;
 }
@@ -26,6 +35,19 @@ HexMesh lattice(const Index3& cells) {
       .cells;
 }
 
+HexMesh turned(HexMesh mesh) {
+  constexpr std::array<std::array<std::size_t, 8>, 3> kTurns{
+      {{1, 2, 3, 0, 5, 6, 7, 4}, {4, 7, 6, 5, 0, 3, 2, 1}, {0, 3, 7, 4, 1, 2, 6, 5}}};
+  mesh.lattice = {0, 0, 0};
+  for (std::size_t h = 0; h < mesh.hexes.size(); ++h)
+    for (std::size_t turn = 0; turn < 3; ++turn)
+      if (scatter(turn, static_cast<std::uint64_t>(mesh.hex_id[h])) & 8) {
+        const Hex before = mesh.hexes[h];
+        for (std::size_t c = 0; c < 8; ++c) mesh.hexes[h][c] = before[kTurns[turn][c]];
+      }
+  return mesh;
+}
+
 Overlay filtered(const Comm& comm, const Case& input, int layers) {
   Overlay o = overlay(comm, input, layers);
   (void)filter_materials(o.cells, o.fractions, face_neighbours(o.cells), NodeHexes(o.cells));
@@ -34,7 +56,48 @@ Overlay filtered(const Comm& comm, const Case& input, int layers) {
 }
 Overlay filtered(const Case& input) { return filtered(Comm::self(), input); }
 
+Overlay irregular(const Comm& comm, const Index3& cells, std::int32_t grains, std::uint64_t seed,
+                  int layers) {
+  const auto in_middle = [&](const Index3& c) {
+    for (std::size_t d = 0; d < 3; ++d)
+      if (3 * c[d] < cells[d] || 3 * c[d] >= 2 * cells[d]) return -1;
+    return 0;
+  };
+  const HexMesh grid =
+      overlay(comm, voxels("cells", cells, 1, [](const Index3&) { return 0; }), layers + 1).cells;
+  std::vector<std::int32_t> label;
+  for (const GlobalId id : grid.hex_id) label.push_back(in_middle(whole(cells).cell(id)));
+  Overlay o{pillow(comm, grid, face_neighbours(grid), label, {}, {.offset = 0.4}).mesh, {}};
+  o.cells.node_exchange.copy_to_ghosts(o.cells.position);
+  o.cells.level.assign(o.cells.position.size(), 0);
+  std::vector<Vec3> points;
+  for (std::uint64_t g = 0; g < 3 * static_cast<std::uint64_t>(grains); g += 3)
+    points.push_back({static_cast<double>(cells[0]) * scatter_unit(seed, g),
+                      static_cast<double>(cells[1]) * scatter_unit(seed, g + 1),
+                      static_cast<double>(cells[2]) * scatter_unit(seed, g + 2)});
+  for (LocalId h = 0; h < o.cells.size(); ++h) {
+    Vec3 centre;
+    for (const LocalId n : o.cells.hexes[at(h)]) {
+      centre += 0.125 * o.cells.position[at(n)];
+      if (o.cells.hex_id[at(h)] % 8 != 0) o.cells.level[at(n)] = 1;
+    }
+    const auto nearest = std::min_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
+      return dot(a - centre, a - centre) < dot(b - centre, b - centre);
+    });
+    o.fractions.add(static_cast<std::int32_t>(nearest - points.begin()), 1);
+    o.fractions.end_cell();
+  }
+  o.cells.node_exchange.copy_to_ghosts(o.cells.level);
+  colour_nodes(o.cells, std::vector<std::uint8_t>(o.cells.position.size(), kNoColour));
+  assign_materials(o.cells, o.fractions, face_neighbours(o.cells));
+  return o;
+}
+
 StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions& options) {
+  return run_stages(comm, overlay(comm, input, options.layers.ghost_layers()), input.pure, options);
+}
+
+StagesResult run_stages(const Comm& comm, Overlay o, bool pure, const StageOptions& options) {
   StagesResult result;
   const auto note = [&](const char* stage, const HexMesh& mesh) {
     result.checksums.push_back({stage, checksum(comm, mesh)});
@@ -42,12 +105,11 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
     if (!problem.empty() && result.ghosts.empty())
       result.ghosts = std::string("after ") + stage + ": " + problem;
   };
-  Overlay o = overlay(comm, input, options.layers.ghost_layers());
   HexMesh& cells = o.cells;
   note("assign", cells);
   const FaceNeighbours neighbours = face_neighbours(cells);
   const NodeHexes around(cells);
-  (void)filter_materials(cells, o.fractions, neighbours, around);
+  (void)filter_materials(cells, o.fractions, neighbours, around, options.filter);
   note("filter", cells);
   follow_assignment(o.fractions, cells.material);
 
@@ -59,7 +121,7 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
   place_nodes(cells, faces, crossings);
   note("contour", cells);
   InterfaceSmoothing smoothing = options.interfaces;
-  if (!input.pure && smoothing.projection == SurfaceProjection::kOff)
+  if (!pure && smoothing.projection == SurfaceProjection::kOff)
     smoothing.projection = SurfaceProjection::kInterface;
   smooth_interface(cells, faces, crossings, grid_position, smoothing);
   note("smooth interfaces", cells);
@@ -74,11 +136,10 @@ StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions&
                                    options.layers, Log());
   note("pillow", layered.mesh);
   SmoothOptions volume_smoothing = options.smoothing;
-  volume_smoothing.fidelity = input.pure ? 1 : 2.5;
+  volume_smoothing.fidelity = pure ? 1 : 2.5;
   const bool published = volume_smoothing.method == OptimisationMethod::kPublished;
   if (published || volume_smoothing.hold_on_geometry || std::isfinite(volume_smoothing.max_deviation))
-    hold(layered.geometry,
-         {cells, faces, crossings, grid_position, smoothing.exact, published && input.pure});
+    hold(layered.geometry, {cells, faces, crossings, grid_position, smoothing.exact, published && pure});
   const auto smooth = [&](LayeredMesh& l) { smooth_mesh(l.mesh, l.geometry, volume_smoothing, options.log); };
   smooth(layered);
   note("smooth", layered.mesh);

@@ -29,10 +29,19 @@ struct Overlay {
 // The mesh of a grid of one material, one rank alone.
 [[nodiscard]] HexMesh lattice(const Index3& cells);
 
+// The same mesh, which does not know that it is a lattice, with the corners of its hexes in other orders.
+[[nodiscard]] HexMesh turned(HexMesh mesh);
+
+// Cells whose edges and nodes have more and fewer cells around them than in a lattice: a lattice with a
+// pillow in its middle third. Grains, one per material; the nodes of the pillow have level 1.
+[[nodiscard]] Overlay irregular(const Comm& comm, const Index3& cells, std::int32_t grains,
+                                std::uint64_t seed, int layers = 2);
+
 struct StageOptions {
   LayerPlan layers;
   std::int32_t void_material = -1;  // left out of the mesh
-  InterfaceSmoothing interfaces;    // whether to project is decided by the input, as the program does
+  FilterOptions filter;
+  InterfaceSmoothing interfaces;  // whether to project is decided by the input, as the program does
   SmoothOptions smoothing;
   Log log;  // of the volume smoothing
 };
@@ -54,5 +63,8 @@ struct StagesResult {
 
 // Collective.
 [[nodiscard]] StagesResult run_stages(const Comm& comm, const Case& input, const StageOptions& options = {});
+// The same from cells with the ghost layers that options.layers needs. pure: every cell holds one material.
+[[nodiscard]] StagesResult run_stages(const Comm& comm, Overlay overlay, bool pure,
+                                      const StageOptions& options = {});
 
 }  // namespace sculpt::test

@@ -18,10 +18,6 @@ struct Crossing {
 // (equations 2.5-2.6, slopes limited so that the cubic is monotone). Equal zeros at both ends: 1/2.
 [[nodiscard]] double hermite_root(double g0, double g1, double m0, double m1);
 
-// Signed distance, from the centre of a unit cube along a unit normal, of the plane that has the part `share`
-// of the cube's volume behind it.
-[[nodiscard]] double plane_offset(double share, const Vec3& normal);
-
 // Local. Crossing of every quad whose two cells are at most in the first ghost layer; others are left zero.
 // Gradients: least squares over the cells that share a node, mirrored at the box (equation 2.1).
 [[nodiscard]] std::vector<Crossing> edge_crossings(const HexMesh& mesh, const Interfaces& faces,

@@ -41,6 +41,12 @@ enum AdaptType : int {
   kAdaptMaterial = 7,
 };
 
+// What becomes of cells of dense data beyond a multiple of 2^adapt_levels.
+enum AdaptRemainder : int {
+  kRemainderDrop = 0,
+  kRemainderPad = 1,
+};
+
 enum Smooth : int {
   kSmoothOff = 0,
   kSmoothOn = 1,
@@ -241,6 +247,7 @@ struct Deck {
   double adapt_threshold = -1;  // -1: depends on adapt_type
   int adapt_levels = 2;
   std::vector<NumberRecord> adapt_material;
+  int adapt_remainder = kRemainderDrop;
   bool adapt_export = false;
   bool adapt_non_manifold = false;
   bool adapt_load_balance = false;

@@ -11,6 +11,7 @@
 #include "sculpt/base/log.hpp"
 #include "sculpt/base/types.hpp"
 #include "sculpt/deck/deck.hpp"
+#include "sculpt/geom/shape.hpp"
 #include "sculpt/grid/grid.hpp"
 #include "sculpt/par/comm.hpp"
 
@@ -55,6 +56,21 @@ struct MaterialData {
 // surface is near. Empty where the input is data and not shapes.
 using ExactSurface = std::function<std::optional<Vec3>(const Vec3& p, std::int32_t a, std::int32_t b)>;
 
+// The materials of this rank's part of space, for boxes of any size and place: cells finer or coarser than
+// those that were read. Local. A box has a volume. What is said of it depends on the box and the input only,
+// not on the rank's part. Calls may use scratch storage of the field: one thread at a time. Stays usable when
+// the source is gone.
+class MaterialField {
+ public:
+  virtual ~MaterialField() = default;
+  // Appends the box as one cell: materials ascending, fractions in (0,1] whose sum is 1, end_cell() called.
+  // A cell that was read gets the fractions that were read, to the last bit.
+  virtual void measure(const Box& box, Fractions& out) = 0;
+  // The material that certainly fills the whole box; nothing when several do, or when it would take a
+  // measurement to know.
+  [[nodiscard]] virtual std::optional<std::int32_t> sole_material(const Box& box) = 0;
+};
+
 class MaterialSource {
  public:
   virtual ~MaterialSource() = default;
@@ -63,13 +79,16 @@ class MaterialSource {
   // Collective. wanted[r] = the cells rank r needs (known to all ranks; boxes may overlap or be empty). Reads
   // large files once, all ranks together, and leaves on each rank only what it wanted. Throws AgreedError.
   [[nodiscard]] virtual MaterialData read(const Comm& comm, std::span<const IndexBox> wanted) = 0;
-  // Local. The fractions of a box of cells of any grid, for input that goes on beyond its own grid; nothing
-  // for data, which end with it.
-  [[nodiscard]] virtual std::optional<Fractions> measure(const Grid& grid, const IndexBox& box) const {
-    (void)grid;
-    (void)box;
-    return std::nullopt;
-  }
+  // Whether the materials are known only as values of the cells of grid(); otherwise they are known
+  // everywhere.
+  [[nodiscard]] virtual bool is_data() const { return true; }
+  // Local, after read(): `wanted` is what this rank wanted, `fractions` what it got (move them in to keep one
+  // copy only). The field of data takes boxes within the wanted cells (BrokenPromise otherwise) and gives the
+  // averages of the cells they overlap, by volume; the outermost cells of the grid extend to infinity. Planes
+  // that differ from those of the grid by a millionth of a cell are the same. The field of shapes takes any
+  // box and knows what lies beyond the grid.
+  [[nodiscard]] virtual std::unique_ptr<MaterialField> field(Fractions fractions,
+                                                             const IndexBox& wanted) const;
   // What the input knows exactly of its surfaces. Stays usable when the source is gone.
   [[nodiscard]] virtual ExactSurface exact_surface() const { return {}; }
 };

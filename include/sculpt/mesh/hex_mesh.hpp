@@ -15,6 +15,7 @@
 //     nodes on its low sides, those on the high sides are images;
 //   - the owner of the home plus the number of ranks, so that no rank takes an image for its own;
 //   - the value of its home in every exchange, positions translated (share_positions).
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -41,7 +42,9 @@ struct HexMesh {
   std::vector<std::int32_t> node_owner;  // rank; of images: rank + number of ranks
   std::vector<std::uint8_t> box_sides;   // sides of the domain box that hold the node
   std::vector<std::uint8_t>
-      colour;  // nodes of one colour share no hex unless they stem from one overlay node
+      colour;                       // nodes of one colour share no hex unless they stem from one overlay node
+  std::vector<std::uint8_t> level;  // the smallest cells around the node have 2^-level times the cell size;
+                                    // empty: 0 everywhere, as in every lattice
 
   // Hexes.
   std::vector<Hex> hexes;               // Exodus corner order, local node indices
@@ -60,12 +63,29 @@ struct HexMesh {
   GhostExchange hex_exchange;   // likewise for hexes
   int ghost_layers = 0;         // of hexes around the owned ones, where the domain has them
   int colours = 0;              // number of colours in use
-  Vec3 cell_size{1, 1, 1};      // of the overlay grid; the unit of lengths in smoothing
+  Vec3 cell_size{1, 1, 1};      // of the overlay grid, at level 0
   std::array<LocalId, 3> lattice{0, 0,
                                  0};  // cells per axis when the local hexes are a full box, x fastest; else 0
 
   [[nodiscard]] LocalId nodes() const { return static_cast<LocalId>(position.size()); }
   [[nodiscard]] LocalId size() const { return static_cast<LocalId>(hexes.size()); }
+  // Lengths "in cells" are those of the cells at a node. The size of these in units of cell_size, exactly,
+  // and what turns a vector into cells.
+  [[nodiscard]] double unit(LocalId node) const {
+    return level.empty() ? 1.0 : 1.0 / static_cast<double>(std::uint64_t{1} << level[at(node)]);
+  }
+  [[nodiscard]] Vec3 per_cell(LocalId node) const {
+    const double u = unit(node);
+    return {1 / (u * cell_size.x), 1 / (u * cell_size.y), 1 / (u * cell_size.z)};
+  }
+  // Hexes count in the smallest cells at their nodes.
+  [[nodiscard]] double hex_unit(LocalId hex) const {
+    if (level.empty()) return 1.0;
+    double least = 1;
+    for (const LocalId n : hexes[at(hex)]) least = std::min(least, unit(n));
+    return least;
+  }
+
   [[nodiscard]] HexCorners corners(LocalId hex) const {
     HexCorners p;
     for (std::size_t c = 0; c < 8; ++c)
@@ -79,6 +99,10 @@ struct HexMesh {
   [[nodiscard]] std::span<const GlobalId> hex_homes() const { return hex_home.empty() ? hex_id : hex_home; }
   [[nodiscard]] Image image_of(LocalId hex) const {
     return hex_image.empty() ? Image{0, 0, 0} : hex_image[static_cast<std::size_t>(hex)];
+  }
+  // Volume of a cell of the overlay mesh, in units of that of cell_size: in a lattice all count as one.
+  [[nodiscard]] double volume_in_cells(LocalId cell) const {
+    return lattice[0] != 0 ? 1.0 : hex_volume(corners(cell)) / (cell_size.x * cell_size.y * cell_size.z);
   }
 };
 

@@ -48,6 +48,8 @@ class Comm {
   [[nodiscard]] double max(double value) const;
   // Elementwise over vectors of equal length on all ranks.
   void sum(std::span<std::int64_t> values) const;
+  // Bitwise or, elementwise over vectors of equal length on all ranks.
+  void bit_or(std::span<std::uint64_t> values) const;
   // Sum over the ranks before this one.
   [[nodiscard]] std::int64_t exclusive_sum(std::int64_t value) const;
   void exclusive_sum(std::span<std::int64_t> values) const;

@@ -20,7 +20,7 @@ struct InterfaceTrack {
   std::vector<Vec3> smoothed;   // after the interfaces were smoothed: the target of the volume smoothing
 };
 
-// Distances in cells (every axis in units of the cell size).
+// Distances in cells: every axis in units of the cells at the node.
 struct Displacement {
   std::int64_t nodes = 0;
   double largest_from_contour = 0, mean_from_contour = 0;
@@ -41,7 +41,7 @@ struct Kink {
 // interfaces.
 [[nodiscard]] Kink measure_kink(const Comm& comm, const HexMesh& mesh);
 
-// Collective. Volume of each material by its fractions, in cells.
+// Collective. Volume of each material by its fractions, in cells of level 0.
 [[nodiscard]] std::vector<double> input_volumes(const Comm& comm, const HexMesh& cells,
                                                 const Fractions& fractions, std::size_t materials);
 
@@ -58,7 +58,7 @@ struct QualityReport {
     std::int32_t material = 0;  // dense index
     std::int64_t id = 0;
     std::string name;
-    double input_volume = 0;  // in cells
+    double input_volume = 0;  // in cells of level 0
   };
   QualitySummary summary;
   Kink kink;

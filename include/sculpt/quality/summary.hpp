@@ -18,17 +18,18 @@ struct ListedHex {
   GlobalId element = 0;  // number in the files, from 1: block by block, in each ascending in key
   std::int32_t material = 0, owner = 0;
   double scaled_jacobian = 0;
-  std::int32_t corner = 0;       // where it is reached, 1..8, Exodus order
-  double least_determinant = 0;  // of the edges at a corner; smallest of the eight, in cells
-  double shortest_edge = 0;      // in the units of the mesh
-  Vec3 centre;                   // mean of the corners
-  std::int32_t valid = 1;        // 1: the Jacobian is positive everywhere in the hex
+  std::int32_t corner = 0;  // where it is reached, 1..8, Exodus order
+  double least_determinant =
+      0;                     // of the edges at a corner; smallest of the eight, in cells (HexMesh::hex_unit)
+  double shortest_edge = 0;  // in the units of the mesh
+  Vec3 centre;               // mean of the corners
+  std::int32_t valid = 1;    // 1: the Jacobian is positive everywhere in the hex
 };
 
 struct MaterialQuality {
   std::int64_t hexes = 0;
   double least = 0, mean = 0;  // scaled Jacobian; 0 without hexes
-  double volume = 0;           // in cells of the overlay grid
+  double volume = 0;           // in cells of the overlay grid, at level 0
 };
 
 struct QualitySummary {
@@ -43,7 +44,7 @@ struct QualitySummary {
   std::array<std::int64_t, kBins> histogram{};
   double least = 1, average = 1;           // scaled Jacobian
   double shortest_edge = 0;                // in the units of the mesh; 0 without hexes
-  double shortest_edge_cells = 0;          // the same with every axis in units of the cell size
+  double shortest_edge_cells = 0;          // the same in cells (HexMesh::hex_unit), every axis in its unit
   std::vector<MaterialQuality> materials;  // per dense material index, up to the last one with hexes
   std::vector<ListedHex> worst;            // least scaled Jacobian first; ties: the smaller key
   std::vector<ListedHex> invalid;          // likewise, of those that are counted in not_positive_inside

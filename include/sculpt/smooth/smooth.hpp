@@ -50,8 +50,9 @@ struct SmoothOptions {
   bool hold_on_geometry = false;  // interface nodes end as near to the geometry as the target allows
   double max_deviation =
       std::numeric_limits<double>::infinity();  // of interface nodes from the geometry; a length
-  int guarantee_rounds = 0;                     // most rounds in which interfaces give way more and more
-  double guarantee = 0.2;                       // to this scaled Jacobian
+  bool deviation_by_level = false;  // max_deviation is that at level 0; in smaller cells it is smaller
+  int guarantee_rounds = 0;         // most rounds in which interfaces give way more and more
+  double guarantee = 0.2;           // to this scaled Jacobian
   OptimisationMethod method = OptimisationMethod::kNewton;
   bool damping = true;      // published method: the n-th of N passes goes n/N of the way
   bool size_aware = false;  // published method: quality counts short and long edges (equations 2.9-2.11)

@@ -14,10 +14,11 @@ struct VolumeCorrection {
 
 // Collective. wanted: volume of each material (units of the mesh), below 0 = free. interface: per node, kNone
 // for a node that is on no interface (Geometry::index). Interface nodes move along the gradients of the
-// volumes of their materials, each gradient times a pressure of its material; the pressures follow from the
-// missing volumes (the linear system of the first-order changes). Nodes of hexes that would fall below
-// `least_quality` (scaled Jacobian; or below what they have, if that is less) stay where they are; so do
-// nodes of hexes whose edges would become short. Needs one ghost layer.
+// volumes of their materials, each gradient times a pressure of its material and, as smaller cells bear
+// shorter moves, the size of the cells at the node; the pressures follow from the missing volumes (the linear
+// system of the first-order changes). Nodes of hexes that would fall below `least_quality` (scaled Jacobian;
+// or below what they have, if that is less) stay where they are; so do nodes of hexes whose edges would
+// become short. Needs one ghost layer.
 VolumeCorrection correct_volumes(HexMesh& mesh, std::span<const LocalId> interface,
                                  std::span<const double> wanted, double least_quality);
 

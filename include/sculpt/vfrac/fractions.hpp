@@ -23,6 +23,10 @@ namespace sculpt {
 [[nodiscard]] Fractions expand_fractions(const Fractions& data, const IndexBox& source_box,
                                          const IndexBox& box, std::int64_t expand,
                                          const Index3& source_cells);
+// Collective. The fractions of all local cells from those of the owned ones, in the order of the cells:
+// ghosts get those of their owners.
+[[nodiscard]] Fractions with_ghosts(const HexMesh& cells, const Fractions& owned);
+
 // The source cells that `box` of the grown grid takes its data from.
 [[nodiscard]] IndexBox source_of(const IndexBox& box, std::int64_t expand, const Index3& source_cells);
 

@@ -28,6 +28,31 @@ void expect_same(const Fractions& a, const Fractions& b) {
   EXPECT_EQ(a.value, b.value);
 }
 
+// Boxes across two cells each: what this rank's part says of them and what the whole says.
+void expect_same_fields(const Deck& deck, const MaterialSource& together, const Fractions& mine,
+                        const IndexBox& box) {
+  const auto alone = open_source(Comm::self(), deck, Log());
+  const Grid& grid = alone->grid();
+  const std::vector<IndexBox> all(1, whole(grid.cells));
+  const auto expected = alone->field(alone->read(Comm::self(), all).fractions, all[0]);
+  const auto field = together.field(mine, box);
+  Fractions measured, of_the_whole;
+  for (std::int64_t p = 0; p < box.size(); ++p) {
+    const Index3 cell = box.cell(p);
+    if (cell[0] + 1 == box.hi[0]) continue;
+    Box two;
+    for (std::size_t d = 0; d < 3; ++d) {
+      two.lo[d] = grid.planes[d][static_cast<std::size_t>(cell[d])];
+      two.hi[d] = grid.planes[d][static_cast<std::size_t>(cell[d]) + (d == 0 ? 2 : 1)];
+    }
+    two.lo.x += 0.3 * (two.hi.x - two.lo.x);
+    field->measure(two, measured);
+    expected->measure(two, of_the_whole);
+    EXPECT_EQ(field->sole_material(two), expected->sole_material(two));
+  }
+  expect_same(measured, of_the_whole);
+}
+
 void expect_same_alone_and_together(const Deck& deck) {
   const Comm comm = Comm::world();
   const auto together = open_source(comm, deck, Log());
@@ -40,6 +65,7 @@ void expect_same_alone_and_together(const Deck& deck) {
   EXPECT_EQ(mine.table.block_id, expected.table.block_id);
   EXPECT_EQ(mine.table.void_material, expected.table.void_material);
   expect_same(mine.fractions, expected.fractions);
+  expect_same_fields(deck, *together, mine.fractions, boxes[static_cast<std::size_t>(comm.rank())]);
 }
 
 // Ids of 1 to 10 digits, separated by blanks of many kinds: numbers lie across the borders of the pieces.

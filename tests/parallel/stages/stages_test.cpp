@@ -13,18 +13,22 @@ namespace sculpt::test {
 
 namespace {
 
-// Answers how many pillows the mesh has.
-int expect_same_alone_and_together(const Case& input, const StageOptions& options = {}) {
+void expect_same(const StagesResult& together, const StagesResult& alone, const std::string& name) {
   const Comm world = Comm::world();
-  const StagesResult together = run_stages(world, input, options),
-                     alone = run_stages(Comm::self(), input, options);
   EXPECT_EQ(together.checksums.size(), alone.checksums.size());
   for (std::size_t i = 0; i < std::min(alone.checksums.size(), together.checksums.size()); ++i)
     EXPECT_EQ(together.checksums[i].checksum, alone.checksums[i].checksum)
-        << input.name << ", after " << alone.checksums[i].stage;
-  EXPECT_EQ(together.ghosts, "") << input.name;
-  EXPECT_EQ(world.sum(owned_hexes(together.mesh)), owned_hexes(alone.mesh)) << input.name;
-  EXPECT_EQ(world.sum(together.quads), alone.quads) << input.name;
+        << name << ", after " << alone.checksums[i].stage;
+  EXPECT_EQ(together.ghosts, "") << name;
+  EXPECT_EQ(world.sum(owned_hexes(together.mesh)), owned_hexes(alone.mesh)) << name;
+  EXPECT_EQ(world.sum(together.quads), alone.quads) << name;
+}
+
+// Answers how many pillows the mesh has.
+int expect_same_alone_and_together(const Case& input, const StageOptions& options = {}) {
+  const StagesResult together = run_stages(Comm::world(), input, options),
+                     alone = run_stages(Comm::self(), input, options);
+  expect_same(together, alone, input.name);
   return alone.pillows;
 }
 
@@ -41,6 +45,25 @@ TEST(SameMesh, OfTwoPhaseNoise) {
   Case input = two_phase_fractions({9, 8, 10}, 5);
   input.grid = box_grid(input.grid.cells, {-0.3, 0.1, 1}, {0.7, 1.1, 1.9});
   expect_same_alone_and_together(input);
+}
+
+TEST(SameMesh, OfCellsOfSeveralSizes) {
+  const Vec3 centre{4.1, 3.9, 4};
+  expect_same_alone_and_together(
+      graded({10, 11, 9}, 4, [&](const Vec3& p) { return norm(p - centre) < 2.3; }));
+}
+
+TEST(SameMesh, OfIrregularCells) {
+  StageOptions options;
+  options.filter.defeature = options.filter.collapse = options.filter.reversals = true;
+  for (const bool surfaces : {false, true}) {
+    options.layers.surfaces = surfaces;
+    const auto run = [&](const Comm& comm) {
+      return run_stages(comm, irregular(comm, {9, 8, 10}, 12, 5, options.layers.ghost_layers()), true,
+                        options);
+    };
+    expect_same(run(Comm::world()), run(Comm::self()), "irregular cells");
+  }
 }
 
 TEST(SameMesh, WithoutTheVoid) {

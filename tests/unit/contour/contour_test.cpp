@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "contour/gradient.hpp"
+#include "sculpt/geom/plane_cut.hpp"
 #include "support/mesh_checks.hpp"
 #include "support/stages.hpp"
 

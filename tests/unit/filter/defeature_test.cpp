@@ -4,6 +4,7 @@
 #include <set>
 
 #include "sculpt/filter/filter.hpp"
+#include "support/mesh_checks.hpp"
 #include "support/stages.hpp"
 
 namespace sculpt {
@@ -190,6 +191,26 @@ TEST(Collapse, LeavesAContactInTwoFaces) {
   FilterOptions options;
   options.collapse = true;
   EXPECT_EQ(filter(o, options).collapses, 0);
+}
+
+TEST(Filter, DoesTheSameWhateverTheOrderOfCorners) {
+  std::vector<FilterOptions> all(4, defeaturing());
+  all[1].defeature = false;
+  all[1].collapse = true;
+  all[2].collapse = all[2].reversals = all[2].defeature_box = true;
+  all[3].collapse = true;
+  all[3].keep_materials = 60;
+  for (const FilterOptions& options : all)
+    for (const test::Case& input : {test::grains({13, 12, 11}, 150, 60, 5), test::noise({9, 8, 7}, 4, 6),
+                                    test::grains({9, 9, 1}, 20, 7, 7)}) {
+      Overlay o = test::overlay(input), turned = test::overlay(input);
+      turned.cells = test::turned(turned.cells);
+      ASSERT_GT(test::least_scaled_jacobian(turned.cells), 0.99);
+      const FilterReport a = filter(o, options), b = filter(turned, options);
+      EXPECT_EQ(o.cells.material, turned.cells.material) << input.name;
+      EXPECT_EQ(a.collapses, b.collapses);
+      EXPECT_EQ(a.reversals, b.reversals);
+    }
 }
 
 TEST(Collapse, IsIdempotent) {

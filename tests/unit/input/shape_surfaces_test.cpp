@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "sculpt/geom/sphere.hpp"
 
 namespace sculpt {
@@ -46,6 +48,36 @@ TEST(ShapeSurfaces, PassOverHiddenOnes) {
   const ExactSurface same = surfaces({{{5, 5, 5}, 3, 1}, {{8, 5, 5}, 3, 1}});
   EXPECT_FALSE(same({7.5, 5, 5}, 0, 1).has_value());
   EXPECT_EQ(same({5, 8.5, 5}, 0, 1), (Vec3{5, 8, 5}));
+}
+
+TEST(ShapeSurfaces, FindAmongManyWhatGoingThroughAllFinds) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> place(-1, 21), size(0.2, 0.6);
+  std::vector<Ball> balls;
+  for (int n = 0; n < 3000; ++n)
+    balls.push_back({{place(random), place(random), place(random)}, size(random), 1 + n % 2});
+  const ExactSurface nearest = surfaces(balls);
+  int found = 0;
+  for (int n = 0; n < 500; ++n) {
+    const Vec3 p{place(random), place(random), place(random)};
+    std::optional<Vec3> expected;
+    double least = 1.5;
+    for (std::size_t s = 0; s < balls.size(); ++s) {
+      if (balls[s].material != 1) continue;
+      const Vec3 off = p - balls[s].centre, q = balls[s].centre + (balls[s].radius / norm(off)) * off;
+      if (!(norm(q - p) < least)) continue;
+      bool hidden = false;
+      for (std::size_t t = 0; t < balls.size(); ++t)
+        hidden = hidden || (t != s && (t < s || balls[t].material == 1) &&
+                            Sphere(balls[t].centre, balls[t].radius).contains({q, q}));
+      if (hidden) continue;
+      least = norm(q - p);
+      expected = q;
+    }
+    EXPECT_EQ(nearest(p, 0, 1), expected);
+    found += expected.has_value();
+  }
+  EXPECT_GT(found, 100);
 }
 
 }  // namespace

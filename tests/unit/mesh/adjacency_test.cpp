@@ -39,6 +39,22 @@ TEST(FaceNeighbours, FollowTheNodesWhateverTheCornerOrder) {
   EXPECT_EQ(n[1][0], 0);
 }
 
+TEST(FaceNeighbours, OfTurnedHexesAreTheSameCells) {
+  const HexMesh mesh = lattice({5, 4, 3}), turned = test::turned(mesh);
+  FaceNeighbours all = face_neighbours(mesh), found = face_neighbours(turned);
+  for (std::size_t h = 0; h < all.size(); ++h) {
+    for (std::size_t f = 0; f < 6; ++f) {
+      if (found[h][f] == kNone) continue;
+      std::array<LocalId, 4> nodes;
+      for (std::size_t v = 0; v < 4; ++v) nodes[v] = turned.hexes[h][static_cast<std::size_t>(kFaces[f][v])];
+      EXPECT_GE(face_with_nodes(turned.hexes[at(found[h][f])], nodes), 0);
+    }
+    std::sort(all[h].begin(), all[h].end());
+    std::sort(found[h].begin(), found[h].end());
+    EXPECT_EQ(found[h], all[h]);
+  }
+}
+
 TEST(NodeHexes, ListsHexAndCornerAscending) {
   const HexMesh mesh = lattice({3, 3, 2});
   const NodeHexes around(mesh);

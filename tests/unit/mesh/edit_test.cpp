@@ -42,6 +42,29 @@ TEST(RemoveHexes, TakesTheirNodesAlongAndKeepsIds) {
   EXPECT_EQ(test::conformity_problem(mesh, 0), "");
 }
 
+TEST(RemoveHexes, KeepsTheLevelsOfTheNodesThatStay) {
+  HexMesh mesh = row(3);
+  for (LocalId n = 0; n < mesh.nodes(); ++n) mesh.level.push_back(static_cast<std::uint8_t>(n % 4));
+  mesh.lattice = {0, 0, 0};
+  (void)remove_hexes(Comm::self(), mesh, std::vector<std::uint8_t>{1, 0, 0});
+  ASSERT_EQ(mesh.level.size(), mesh.position.size());
+  for (LocalId n = 0; n < mesh.nodes(); ++n) EXPECT_EQ(mesh.level[at(n)], mesh.position[at(n)].x);
+}
+
+TEST(HexMesh, LengthsInCellsAreThoseOfTheSmallestCellsAround) {
+  HexMesh mesh = row(2);
+  mesh.cell_size = {2, 4, 8};
+  EXPECT_EQ(mesh.unit(0), 1);
+  EXPECT_EQ(mesh.hex_unit(0), 1);
+  EXPECT_EQ(mesh.per_cell(0), (Vec3{0.5, 0.25, 0.125}));
+  mesh.level.assign(mesh.position.size(), 0);
+  mesh.level[at(mesh.hexes[0][3])] = 2;
+  EXPECT_EQ(mesh.unit(mesh.hexes[0][3]), 0.25);
+  EXPECT_EQ(mesh.per_cell(mesh.hexes[0][3]), (Vec3{2, 1, 0.5}));
+  EXPECT_EQ(mesh.hex_unit(0), 0.25);
+  EXPECT_EQ(mesh.hex_unit(1), 1);
+}
+
 TEST(RemoveHexes, OfNothingChangesNothing) {
   HexMesh mesh = row(3);
   const HexMesh before = mesh;

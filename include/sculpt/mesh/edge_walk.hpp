@@ -1,5 +1,8 @@
 #pragma once
 // Walks around an edge of the mesh, from face to face. Local.
+#include <algorithm>
+#include <array>
+
 #include "sculpt/mesh/adjacency.hpp"
 #include "sculpt/mesh/hex_mesh.hpp"
 
@@ -14,6 +17,21 @@ inline constexpr std::array<std::array<int, 3>, 8> kCornerFaces = [] {
       for (const int v : kFaces[static_cast<std::size_t>(f)])
         if (v == c) faces[static_cast<std::size_t>(c)][k++] = f;
   }
+  return faces;
+}();
+
+// The two faces at the edge between two corners; -1 where there is no edge.
+inline constexpr std::array<std::array<std::array<int, 2>, 8>, 8> kEdgeFaces = [] {
+  std::array<std::array<std::array<int, 2>, 8>, 8> faces{};
+  for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t b = 0; b < 8; ++b) {
+      faces[a][b] = {-1, -1};
+      std::size_t k = 0;
+      for (const int edge : kCornerNeighbours[a])
+        for (const int f : kCornerFaces[a])
+          for (const int g : kCornerFaces[b])
+            if (edge == static_cast<int>(b) && f == g) faces[a][b][k++] = f;
+    }
   return faces;
 }();
 
@@ -36,19 +54,28 @@ struct HexFace {
   return false;
 }
 
-// The other face of the same hex at its edge a-b.
+// The other face of the same hex at the edge a-b of a face.
 [[nodiscard]] inline HexFace across_edge(const HexMesh& mesh, HexFace from, LocalId a, LocalId b) {
-  for (int f = 0; f < 6; ++f)
-    if (f != from.face && face_has(mesh, {from.hex, f}, a) && face_has(mesh, {from.hex, f}, b))
-      return {from.hex, f};
-  return from;  // a-b is no edge of the face
+  const Hex& hex = mesh.hexes[at(from.hex)];
+  const auto corner = [&](LocalId n) {
+    return static_cast<std::size_t>(std::find(hex.begin(), hex.end(), n) - hex.begin());
+  };
+  const auto& faces = kEdgeFaces[corner(a)][corner(b)];
+  return {from.hex, faces[faces[0] == from.face]};
 }
 
 // The same face seen from the neighbour; hex = kNone where there is none.
 [[nodiscard]] inline HexFace other_side(const HexMesh& mesh, const FaceNeighbours& neighbours, HexFace of) {
   const LocalId other = neighbours[at(of.hex)][static_cast<std::size_t>(of.face)];
   if (other == kNone) return {kNone, -1};
-  return {other, face_with_nodes(mesh.hexes[at(other)], face_nodes(mesh, of))};
+  // Two hexes may have more than one face in common, but no two of them hold the same diagonal.
+  const auto nodes = face_nodes(mesh, of);
+  const auto& back = neighbours[at(other)];
+  int face = 0;
+  while (back[static_cast<std::size_t>(face)] != of.hex || !face_has(mesh, {other, face}, nodes[0]) ||
+         !face_has(mesh, {other, face}, nodes[2]))
+    ++face;
+  return {other, face};
 }
 
 }  // namespace sculpt

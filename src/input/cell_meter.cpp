@@ -1,0 +1,205 @@
+#include "input/cell_meter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sculpt {
+namespace {
+
+constexpr double kAbsent = 1e-12;  // smaller fractions are rounding
+
+double line(const Box& cell, std::size_t axis, std::size_t l, std::size_t lines) {
+  const double t = (static_cast<double>(l) + 0.5) / static_cast<double>(lines);
+  return cell.lo[axis] + t * (cell.hi[axis] - cell.lo[axis]);
+}
+
+}  // namespace
+
+// The lines of a cell that may meet the bounds, by their coordinate on an axis.
+CellMeter::Lines CellMeter::lines_between(const Box& cell, std::size_t axis, std::size_t lines,
+                                          const Box& bounds) {
+  const auto all = static_cast<double>(lines);
+  const double per_length = all / (cell.hi[axis] - cell.lo[axis]);
+  const double first = std::floor((bounds.lo[axis] - cell.lo[axis]) * per_length - 0.5),
+               last = std::ceil((bounds.hi[axis] - cell.lo[axis]) * per_length + 0.5);
+  return {static_cast<std::size_t>(std::clamp(first, 0.0, all)),
+          static_cast<std::size_t>(std::clamp(last, 0.0, all))};
+}
+
+void CellMeter::measure(const Box& cell, std::span<const std::int32_t> candidates, Fractions& fractions) {
+  if (const auto sole = sole_material(cell, candidates)) {
+    fractions.add(*sole, 1.0);
+  } else {
+    covered_.assign(reaching_.size(), 0.0);
+    const std::size_t axis = shape(0).steepest_axis(0.5 * (cell.lo + cell.hi));
+    if (is_gentle(cell, axis)) {
+      // The error of the midpoint rule falls with the square of the number of lines: two numbers cancel it.
+      sample(cell, axis, 16, 4.0 / 3);
+      sample(cell, axis, 8, -1.0 / 3);
+    } else {
+      sample(cell, axis, kMostLines, 1);
+    }
+    append(fractions);
+  }
+  fractions.end_cell();
+}
+
+std::optional<std::int32_t> CellMeter::sole_material(const Box& cell,
+                                                     std::span<const std::int32_t> candidates) {
+  select(cell, candidates);
+  if (reaching_.empty()) return outside_;
+  const std::int32_t first = material(0);
+  if (!filled_ && first != outside_) return std::nullopt;
+  for (std::size_t s = 1; s < reaching_.size(); ++s)
+    if (material(s) != first) return std::nullopt;
+  return first;
+}
+
+// The shapes that count: those that reach the cell, up to the first that fills it.
+void CellMeter::select(const Box& cell, std::span<const std::int32_t> candidates) {
+  reaching_.clear();
+  filled_ = false;
+  for (const std::int32_t c : candidates) {
+    const auto at = static_cast<std::size_t>(c);
+    if (shapes_[at].shape->misses(cell)) continue;
+    reaching_.push_back(at);
+    filled_ = shapes_[at].shape->contains(cell);
+    if (filled_) return;
+  }
+}
+
+// Few lines suffice where the surfaces turn little within the cell and all of them cross the lines steeply. A
+// shape that fills the cell has no surface there.
+bool CellMeter::is_gentle(const Box& cell, std::size_t axis) const {
+  constexpr double kCells = 4;  // across a shape
+  const Vec3 centre = 0.5 * (cell.lo + cell.hi);
+  for (std::size_t s = 0; s + (filled_ ? 1 : 0) < reaching_.size(); ++s) {
+    if (shape(s).steepest_axis(centre) != axis) return false;
+    const Box bounds = shape(s).bounds();
+    for (std::size_t d = 0; d < 3; ++d)
+      if (bounds.hi[d] - bounds.lo[d] < kCells * (cell.hi[d] - cell.lo[d])) return false;
+  }
+  return true;
+}
+
+// Adds the weighted shares of the cell that the shapes get of lines x lines lines along the axis.
+void CellMeter::sample(const Box& cell, std::size_t axis, std::size_t lines, double weight) {
+  const std::size_t axis_u = (axis + 1) % 3, axis_v = (axis + 2) % 3;
+  const double from = cell.lo[axis], to = cell.hi[axis];
+  Row v;
+  for (std::size_t l = 0; l < lines; ++l) v[l] = line(cell, axis_v, l, lines);
+  chords_.resize(reaching_.size());
+  for (std::size_t s = 0; s < reaching_.size(); ++s) {
+    const Box bounds = shape(s).bounds();
+    chords_[s].rows = lines_between(cell, axis_u, lines, bounds);
+    chords_[s].columns = lines_between(cell, axis_v, lines, bounds);
+    chords_[s].lo.fill(to);  // no chord in the columns beyond its own
+    chords_[s].hi.fill(from);
+    chords_[s].length.fill(0);
+  }
+  for (std::size_t l = 0; l < lines; ++l) {
+    const double u = line(cell, axis_u, l, lines);
+    in_row_.clear();
+    for (std::size_t s = 0; s < reaching_.size(); ++s) {
+      if (l < chords_[s].rows.first || l >= chords_[s].rows.last) continue;
+      const std::size_t first = chords_[s].columns.first, count = chords_[s].columns.last - first;
+      shape(s).chords(axis, u, {v.data() + first, count}, {chords_[s].lo.data() + first, count},
+                      {chords_[s].hi.data() + first, count});
+      in_row_.push_back(s);
+    }
+    add_row(from, to, lines);
+  }
+  const double per_length = weight / (static_cast<double>(lines * lines) * (to - from));
+  for (std::size_t s = 0; s < reaching_.size(); ++s) {
+    double length = 0;
+    for (std::size_t column = 0; column < lines; ++column) length += chords_[s].length[column];
+    covered_[s] += length * per_length;
+  }
+}
+
+// Gives the shapes of the row what they get of it, all lines side by side if possible.
+void CellMeter::add_row(double from, double to, std::size_t lines) {
+  const auto add_all = [&] {
+    for (const std::size_t s : in_row_)
+      add_common(chords_[s], chords_[s], 1, {from, to}, lines, chords_[s].length);
+  };
+  if (in_row_.size() <= 2) {
+    add_all();
+    if (in_row_.size() == 2) {  // the first one keeps what both have
+      Chords& second = chords_[in_row_[1]];
+      add_common(chords_[in_row_[0]], second, -1, {from, to}, lines, second.length);
+    }
+    return;
+  }
+  Row common{};
+  for (std::size_t a = 1; a < in_row_.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      add_common(chords_[in_row_[a]], chords_[in_row_[b]], 1, {from, to}, lines, common);
+  if (std::all_of(common.begin(), common.end(), [](double c) { return c == 0; }))
+    add_all();
+  else
+    for (std::size_t column = 0; column < lines; ++column) share_line({from, to}, column);
+}
+
+// Adds to `sum`, with the sign, the length that the chords of two shapes have in common within a piece of
+// each line.
+void CellMeter::add_common(const Chords& a, const Chords& b, double sign, const Piece& piece,
+                           std::size_t lines, Row& sum) {
+  const double *const lo_a = a.lo.data(), *const hi_a = a.hi.data();
+  const double *const lo_b = b.lo.data(), *const hi_b = b.hi.data();
+  const double from = piece.from, to = piece.to;
+  for (std::size_t l = 0; l < lines; ++l) {
+    const double lo = lo_a[l] > lo_b[l] ? lo_a[l] : lo_b[l], hi = hi_a[l] < hi_b[l] ? hi_a[l] : hi_b[l];
+    const double start = lo > from ? lo : from, end = hi < to ? hi : to;
+    sum[l] += sign * (end > start ? end - start : 0.0);
+  }
+}
+
+// Deals the line out: each shape takes what is left of its chord.
+void CellMeter::share_line(const Piece& whole, std::size_t column) {
+  left_.assign(1, whole);
+  for (const std::size_t s : in_row_) {
+    const double lo = chords_[s].lo[column], hi = chords_[s].hi[column];
+    if (!(lo < hi)) continue;
+    next_.clear();
+    for (const Piece& piece : left_) {
+      const double start = std::max(piece.from, lo), end = std::min(piece.to, hi);
+      if (!(start < end)) {
+        next_.push_back(piece);
+        continue;
+      }
+      chords_[s].length[column] += end - start;
+      if (piece.from < start) next_.push_back({piece.from, start});
+      if (end < piece.to) next_.push_back({end, piece.to});
+    }
+    left_.swap(next_);
+  }
+}
+
+// Turns the shares into fractions by material, ascending, whose sum is 1.
+void CellMeter::append(Fractions& fractions) {
+  shares_.clear();
+  double covered = 0;
+  for (std::size_t s = 0; s < reaching_.size(); ++s) {
+    shares_.push_back({material(s), covered_[s]});
+    covered += covered_[s];
+  }
+  shares_.push_back({outside_, filled_ ? 0.0 : std::max(0.0, 1 - covered)});
+  std::stable_sort(shares_.begin(), shares_.end(),
+                   [](const Share& a, const Share& b) { return a.material < b.material; });
+  std::size_t kept = 0;
+  for (std::size_t s = 0; s < shares_.size(); ++s) {
+    if (kept > 0 && shares_[kept - 1].material == shares_[s].material)
+      shares_[kept - 1].value += shares_[s].value;
+    else
+      shares_[kept++] = shares_[s];
+  }
+  shares_.resize(kept);
+  double sum = 0;
+  for (const Share& share : shares_)
+    if (share.value > kAbsent) sum += share.value;
+  for (const Share& share : shares_)
+    if (share.value > kAbsent) fractions.add(share.material, share.value / sum);
+}
+
+}  // namespace sculpt

@@ -1,0 +1,73 @@
+#pragma once
+// The volume fractions of shapes in one box at a time.
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "input/inserted_shape.hpp"
+#include "sculpt/input/material_source.hpp"
+
+namespace sculpt {
+
+// Measures by lines along the axis in which the surface is steepest: exact along the line, midpoint rule
+// across, extrapolated where surfaces are gentle. Of balls with a radius of 0.6 edges of the box or more the
+// shares are within 1e-3 of the box, mostly 1e-4; within 3e-3 where several meet.
+class CellMeter {
+ public:
+  CellMeter(std::span<const InsertedShape> shapes, std::int32_t outside)
+      : shapes_(shapes), outside_(outside) {}
+
+  // Appends the fractions of a cell to the list. `candidates`: shapes that may reach it, in the order of
+  // insertion; those that do not change nothing.
+  void measure(const Box& cell, std::span<const std::int32_t> candidates, Fractions& fractions);
+  // The material that fills the cell; nothing when only a measurement could tell.
+  [[nodiscard]] std::optional<std::int32_t> sole_material(const Box& cell,
+                                                          std::span<const std::int32_t> candidates);
+
+ private:
+  static constexpr std::size_t kMostLines = 32;  // per direction across a cell
+  using Row = std::array<double, kMostLines>;
+  struct Piece {
+    double from, to;
+  };
+  struct Lines {
+    std::size_t first, last;  // half open
+  };
+  // What a shape cuts from the lines of one row. It has no chords beyond its rows and columns.
+  struct Chords {
+    Lines rows, columns;
+    Row lo, hi;
+    Row length;  // by column: what the shape has got so far
+  };
+  struct Share {
+    std::int32_t material;
+    double value;
+  };
+
+  [[nodiscard]] const Shape& shape(std::size_t s) const { return *shapes_[reaching_[s]].shape; }
+  [[nodiscard]] std::int32_t material(std::size_t s) const { return shapes_[reaching_[s]].material; }
+  void select(const Box& cell, std::span<const std::int32_t> candidates);
+  [[nodiscard]] bool is_gentle(const Box& cell, std::size_t axis) const;
+  void sample(const Box& cell, std::size_t axis, std::size_t lines, double weight);
+  [[nodiscard]] static Lines lines_between(const Box& cell, std::size_t axis, std::size_t lines,
+                                           const Box& bounds);
+  void add_row(double from, double to, std::size_t lines);
+  static void add_common(const Chords& a, const Chords& b, double sign, const Piece& piece, std::size_t lines,
+                         Row& sum);
+  void share_line(const Piece& whole, std::size_t column);
+  void append(Fractions& fractions);
+
+  std::span<const InsertedShape> shapes_;
+  std::int32_t outside_;
+  std::vector<std::size_t> reaching_;  // positions in shapes_
+  bool filled_ = false;                // the last of them fills the cell
+  std::vector<double> covered_;        // per reaching shape: its share of the cell
+  std::vector<Chords> chords_;         // per reaching shape
+  std::vector<std::size_t> in_row_;    // the reaching shapes that may meet the present row
+  std::vector<Piece> left_, next_;
+  std::vector<Share> shares_;
+};
+
+}  // namespace sculpt

@@ -1,0 +1,103 @@
+#include "sculpt/mesh/colour.hpp"
+
+#include <algorithm>
+#include <bitset>
+#include <utility>
+#include <vector>
+
+#include "sculpt/base/lot.hpp"
+
+namespace sculpt {
+namespace {
+
+// Jones and Plassmann (1993): a node takes its colour once all nodes of its hexes that come before it, by the
+// lots of their ids, have theirs.
+class Colouring {
+ public:
+  Colouring(HexMesh& mesh, std::span<const std::uint8_t> preset)
+      : mesh_(mesh), comm_(mesh.node_exchange.comm()), news_(mesh.position.size(), 0) {
+    collectively(comm_, "colouring nodes", [&] {
+      check(preset.size() == mesh.position.size() &&
+                std::all_of(preset.begin(), preset.end(),
+                            [](std::uint8_t c) { return c < kFirstFreeColour || c == kNoColour; }),
+            "preset colours are below 8");
+    });
+    mesh.colour.assign(preset.begin(), preset.end());
+    for (LocalId n = 0; n < mesh.nodes(); ++n)
+      if (mesh.colour[at(n)] == kNoColour && mesh.node_owner[at(n)] == comm_.rank()) waiting_.push_back(n);
+    std::sort(waiting_.begin(), waiting_.end(), [this](LocalId a, LocalId b) { return before(a, b); });
+    find_hexes();
+  }
+
+  void run() {
+    std::int64_t left = comm_.sum(static_cast<std::int64_t>(waiting_.size()));
+    while (left > 0) {
+      collectively(comm_, "colouring nodes", [this] { colour_ready(); });
+      mesh_.node_exchange.copy_changed(std::span<std::uint8_t>(mesh_.colour), std::span<std::uint8_t>(news_),
+                                       [](LocalId) {});
+      left = comm_.sum(static_cast<std::int64_t>(waiting_.size()));
+    }
+    std::int64_t last = kFirstFreeColour - 1;
+    for (const std::uint8_t c : mesh_.colour) last = std::max<std::int64_t>(last, c);
+    mesh_.colours = static_cast<int>(comm_.max(last)) + 1;
+  }
+
+ private:
+  [[nodiscard]] bool before(LocalId a, LocalId b) const {
+    const GlobalId home_a = mesh_.node_homes()[at(a)], home_b = mesh_.node_homes()[at(b)];
+    return std::pair(lot_of(home_a), home_a) < std::pair(lot_of(home_b), home_b);
+  }
+
+  // The hexes around the waiting nodes.
+  void find_hexes() {
+    place_.assign(mesh_.position.size(), kNone);
+    for (std::size_t i = 0; i < waiting_.size(); ++i) place_[at(waiting_[i])] = static_cast<LocalId>(i);
+    first_.assign(waiting_.size() + 1, 0);
+    const auto visit = [this](auto&& found) {
+      for (LocalId h = 0; h < mesh_.size(); ++h)
+        for (const LocalId n : mesh_.hexes[at(h)])
+          if (place_[at(n)] != kNone) found(at(place_[at(n)]), h);
+    };
+    visit([this](std::size_t i, LocalId) { ++first_[i + 1]; });
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    around_.resize(static_cast<std::size_t>(first_.back()));
+    std::vector<std::int64_t> next(first_.begin(), first_.end() - 1);
+    visit([&](std::size_t i, LocalId h) { around_[static_cast<std::size_t>(next[i]++)] = h; });
+  }
+
+  // In the order of the lots, so that chains within a rank take one round.
+  void colour_ready() {
+    std::erase_if(waiting_, [this](LocalId n) {
+      std::bitset<kNoColour> taken;
+      const std::size_t i = at(place_[at(n)]);
+      for (auto e = first_[i]; e < first_[i + 1]; ++e)
+        for (const LocalId other : mesh_.hexes[at(around_[static_cast<std::size_t>(e)])]) {
+          const std::uint8_t c = mesh_.colour[at(other)];
+          if (c != kNoColour)
+            taken.set(c);
+          else if (other != n && before(other, n))
+            return false;
+        }
+      std::size_t colour = kFirstFreeColour;
+      while (colour < kNoColour && taken.test(colour)) ++colour;
+      check(colour < kNoColour, "a mesh needs more than 255 colours");
+      mesh_.colour[at(n)] = static_cast<std::uint8_t>(colour);
+      news_[at(n)] = 1;
+      return true;
+    });
+  }
+
+  HexMesh& mesh_;
+  const Comm& comm_;
+  std::vector<std::uint8_t> news_;   // per node: coloured in this round
+  std::vector<LocalId> waiting_;     // owned nodes without a colour, by their lots
+  std::vector<LocalId> place_;       // per node: its first place among the waiting ones, kNone for others
+  std::vector<std::int64_t> first_;  // per place: its hexes in around_
+  std::vector<LocalId> around_;
+};
+
+}  // namespace
+
+void colour_nodes(HexMesh& mesh, std::span<const std::uint8_t> preset) { Colouring(mesh, preset).run(); }
+
+}  // namespace sculpt

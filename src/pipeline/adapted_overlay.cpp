@@ -1,0 +1,324 @@
+#include "pipeline/adapted_overlay.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "pipeline/console.hpp"
+#include "pipeline/layers.hpp"
+#include "sculpt/adapt/criteria.hpp"
+#include "sculpt/adapt/leaf_fractions.hpp"
+#include "sculpt/adapt/leaf_mesh.hpp"
+#include "sculpt/deck/options.hpp"
+#include "sculpt/vfrac/fractions.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double kFractionThreshold = 1e-4;  // of vfrac_average, coarsen and material: any interface
+constexpr double kLengthThreshold = 0.25;  // of the types that measure distances: of the cell size / levels^2
+
+bool coarsens(const Deck& deck) {
+  return deck.adapt_type == kAdaptCoarsen || deck.adapt_type == kAdaptResample;
+}
+
+const char* type_name(const Deck& deck) {
+  for (const EnumValue& value : find_option("adapt_type")->values)
+    if (value.number == deck.adapt_type) return value.name.data();
+  return "";
+}
+
+// The grid whose cells hold 2^levels cells of the data per axis.
+Grid coarse_grid(const Deck& deck, const Grid& dense, const Log& log) {
+  const std::int64_t step = std::int64_t{1} << deck.adapt_levels;
+  Grid grid;
+  std::string rest;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::int64_t n = dense.cells[d], over = n % step;
+    grid.cells[d] = n / step + (deck.adapt_remainder == kRemainderPad && over > 0 ? 1 : 0);
+    if (grid.cells[d] == 0)
+      throw Error(fmt::format(
+          "option 'adapt_levels' ({}): {} cells along {} cannot be halved {} times; give fewer levels or "
+          "adapt_remainder = pad",
+          deck.given_options.place("adapt_levels"), n, "xyz"[d], deck.adapt_levels));
+    if (over > 0)
+      rest += fmt::format("{}{} of {} cells along {}", rest.empty() ? "" : ", ",
+                          deck.adapt_remainder == kRemainderPad ? step - over : over, n, "xyz"[d]);
+    const std::vector<double>& planes = dense.planes[d];
+    for (std::int64_t i = 0; i <= grid.cells[d]; ++i) {
+      const std::int64_t at = i * step;
+      grid.planes[d].push_back(at <= n ? planes[static_cast<std::size_t>(at)]
+                                       : planes.back() + static_cast<double>(at - n) * dense.cell_size()[d]);
+    }
+  }
+  if (!rest.empty() && deck.adapt_remainder == kRemainderPad)
+    log.line("{}: the grid is not a multiple of {} cells; copies of the last layers fill it up: {}",
+             type_name(deck), step, rest);
+  else if (!rest.empty())
+    log.line(
+        "WARNING: {}: the grid is not a multiple of {} cells; dropped at the high sides: {} (adapt_remainder "
+        "= pad "
+        "keeps them)",
+        type_name(deck), step, rest);
+  return grid;
+}
+
+// What a rank must know of the source for a box of cells of the grid and `margin` cells around it.
+IndexBox wanted_of(const Grid& grid, const Grid& source, const IndexBox& cells, std::int64_t margin,
+                   const std::array<bool, 3>& periodic) {
+  if (cells.empty()) return {};
+  IndexBox box;
+  for (std::size_t d = 0; d < 3; ++d) {
+    std::int64_t lo = cells.lo[d] - margin, hi = cells.hi[d] + margin;
+    if (periodic[d] && (lo < 0 || hi > grid.cells[d])) {  // both ends are near
+      lo = 0;
+      hi = grid.cells[d];
+    }
+    lo = std::max<std::int64_t>(lo, 0);
+    hi = std::min(hi, grid.cells[d]);
+    // Cells of the source that overlap it, and one more for rounding; beyond its ends the outermost count.
+    const std::vector<double>& planes = source.planes[d];
+    const double from = grid.planes[d][static_cast<std::size_t>(lo)],
+                 to = grid.planes[d][static_cast<std::size_t>(hi)];
+    const auto first = std::upper_bound(planes.begin(), planes.end(), from) - planes.begin() - 2;
+    const auto last = std::lower_bound(planes.begin(), planes.end(), to) - planes.begin() + 1;
+    box.lo[d] = std::clamp<std::int64_t>(first, 0, source.cells[d] - 1);
+    box.hi[d] = std::clamp<std::int64_t>(last, box.lo[d] + 1, source.cells[d]);
+  }
+  return box;
+}
+
+// The cells of a box of blocks.
+IndexBox cells_of(const IndexBox& blocks, const Index3& cells) {
+  IndexBox box;
+  for (std::size_t d = 0; d < 3; ++d) {
+    box.lo[d] = std::min(2 * blocks.lo[d], cells[d]);
+    box.hi[d] = std::min(2 * blocks.hi[d], cells[d]);
+  }
+  return box;
+}
+
+// The input in the boxes of the ranks.
+struct Material {
+  std::unique_ptr<MaterialField> field;
+  MaterialTable table;
+  bool pure = true;
+};
+
+class Adapter {
+ public:
+  Adapter(const Comm& comm, const Deck& deck, MaterialSource& source, Grid grid, const Log& log,
+          Stages& stages)
+      : comm_(comm),
+        deck_(deck),
+        source_(source),
+        grid_(std::move(grid)),
+        log_(log),
+        stages_(stages),
+        layers_(layer_plan(deck).ghost_layers()) {
+    periodic_ = {false, false, false};
+  }
+
+  Overlay refined() {
+    AdaptCriterion criterion = criterion_of();
+    Forest forest(grid_.cells, levels_, periodic_);
+    const CartesianParts cut =
+        cut_grid(forest.blocks(0), comm_.size(), {deck_.iproc, deck_.jproc, deck_.kproc});
+    print_decomposition(log_, cut);
+    BlockParts parts = block_parts(cut, comm_.size());
+    Material material = read(parts);
+    stages_.end("read input");
+    name_materials(criterion, material.table);
+    collectively(comm_, "choosing the cells to refine", [&] {
+      mark_cells(grid_, cells_of(parts.box[me()], grid_.cells), *material.field, criterion, forest);
+    });
+    comm_.bit_or(forest.words());
+    const std::int64_t asked = count_refined(forest);
+    forest.close();
+    tell(forest, asked);
+    if (deck_.adapt_load_balance && comm_.size() > 1) {
+      parts = rebalanced(forest);
+      material.field.reset();
+      material = read(parts);
+    }
+    stages_.end("choose cells to refine");
+    LeafMesh mesh = leaf_mesh(comm_, grid_, forest, parts, layers_);
+    stages_.end("refine");
+    return overlay(std::move(mesh), material);
+  }
+
+  // The coarse grid as it is, with averages of the data.
+  Overlay resampled() {
+    const CartesianParts cut = cut_grid(grid_.cells, comm_.size(), {deck_.iproc, deck_.jproc, deck_.kproc});
+    print_decomposition(log_, cut);
+    std::vector<IndexBox> wanted;
+    for (int r = 0; r < comm_.size(); ++r)
+      wanted.push_back(wanted_of(grid_, source_.grid(), cut.ghosted(r, layers_), 0, periodic_));
+    Material material = read(wanted);
+    stages_.end("read input");
+    Overlay out = start(lattice_mesh(comm_, grid_, cut, layers_), material);
+    collectively(comm_, "resampling", [&] {
+      for (LocalId c = 0; c < out.cells.size(); ++c) {
+        const Hex& hex = out.cells.hexes[at(c)];
+        material.field->measure({out.cells.position[at(hex[0])], out.cells.position[at(hex[6])]},
+                                out.fractions);
+      }
+    });
+    stages_.end("distribute");
+    return out;
+  }
+
+ private:
+  [[nodiscard]] std::size_t me() const { return static_cast<std::size_t>(comm_.rank()); }
+
+  AdaptCriterion criterion_of() {
+    AdaptCriterion c;
+    levels_ = deck_.adapt_levels;
+    const Vec3 h = grid_.cell_size();
+    c.threshold = deck_.adapt_threshold >= 0 ? deck_.adapt_threshold : kFractionThreshold;
+    c.non_manifold = deck_.adapt_non_manifold;
+    switch (deck_.adapt_type) {
+      case kAdaptFacetToSurface:
+        c.measure = AdaptMeasure::kFacetToSurface;
+        break;
+      case kAdaptSurfaceToFacet:
+        c.measure = AdaptMeasure::kSurfaceToFacet;
+        break;
+      case kAdaptSurfaceToSurface:
+        c.measure = AdaptMeasure::kSurfaceToSurface;
+        break;
+      case kAdaptMaterial:
+        c.measure = AdaptMeasure::kMaterial;
+        break;
+      default:
+        return c;
+    }
+    if (c.measure == AdaptMeasure::kMaterial) return c;
+    if (deck_.adapt_threshold < 0)
+      c.threshold = kLengthThreshold * std::min({h.x, h.y, h.z}) / (levels_ * levels_);
+    c.exact = source_.exact_surface();
+    if (!c.exact && c.measure != AdaptMeasure::kSurfaceToSurface)
+      throw Error(fmt::format(
+          "option 'adapt_type' ({}): {} measures the distance from facets or shapes, but the input has "
+          "none; use surface_to_surface or vfrac_average",
+          deck_.given_options.place("adapt_type"), type_name(deck_)));
+    if (source_.is_data())
+      log_.line(
+          "WARNING: {}: the input is data on the cells of the grid, which has no finer surface; nothing is "
+          "refined but "
+          "with vfrac_average or material",
+          type_name(deck_));
+    return c;
+  }
+
+  // The records of adapt_material, now that the materials are known.
+  void name_materials(AdaptCriterion& c, const MaterialTable& table) {
+    if (c.measure != AdaptMeasure::kMaterial) return;
+    for (const NumberRecord& record : deck_.adapt_material) {
+      const std::vector<double>& n = record.numbers;
+      const auto id = static_cast<std::int64_t>(n[0]);
+      const auto found = std::find(table.block_id.begin(), table.block_id.end(), id);
+      if (found == table.block_id.end())
+        throw Error(fmt::format("option 'adapt_material' ({}): no material with id {} in the input",
+                                deck_.given_options.place("adapt_material"), n[0]));
+      c.materials.push_back({static_cast<std::int32_t>(found - table.block_id.begin()),
+                             n.size() > 1 ? static_cast<int>(n[1]) : deck_.adapt_levels,
+                             n.size() > 2 ? n[2] : kFractionThreshold, n.size() > 3 ? n[3] : 0.0});
+    }
+    if (c.materials.empty())
+      log_.line("WARNING: adapt_type = material without adapt_material refines nothing");
+  }
+
+  // Cells of the grid that the criterion looks at around those of a rank.
+  [[nodiscard]] std::int64_t margin() const {
+    const Vec3 h = grid_.cell_size();
+    double reach = 0;
+    if (deck_.adapt_type == kAdaptMaterial)
+      for (const NumberRecord& record : deck_.adapt_material)
+        if (record.numbers.size() > 3) reach = std::max(reach, record.numbers[3] / std::min({h.x, h.y, h.z}));
+    return 2 + static_cast<std::int64_t>(std::ceil(reach));
+  }
+
+  Material read(const BlockParts& parts) {
+    std::vector<IndexBox> wanted;
+    for (const IndexBox& blocks : parts.box)
+      wanted.push_back(wanted_of(grid_, source_.grid(), cells_of(blocks, grid_.cells), margin(), periodic_));
+    return read(wanted);
+  }
+  Material read(const std::vector<IndexBox>& wanted) {
+    MaterialData data = source_.read(comm_, wanted);
+    Material m;
+    const bool pure = data.fractions.material.size() == static_cast<std::size_t>(data.fractions.cells());
+    m.pure = source_.is_data() && comm_.min(std::int64_t{pure}) == 1;
+    m.table = std::move(data.table);
+    m.field = source_.field(std::move(data.fractions), wanted[me()]);
+    return m;
+  }
+
+  [[nodiscard]] static std::int64_t count_refined(Forest& forest) {
+    std::int64_t count = 0;
+    for (const std::uint64_t word : forest.words()) count += std::popcount(word);
+    return count;
+  }
+
+  void tell(Forest& forest, std::int64_t asked) const {
+    const std::int64_t all = count_refined(forest);
+    log_.line(
+        "adapting the grid: {} blocks of 2 x 2 x 2 cells to be refined, {} more so that the mesh conforms",
+        asked, all - asked);
+  }
+
+  BlockParts rebalanced(const Forest& forest) const {
+    const IndexBox blocks = whole(forest.blocks(0));
+    std::vector<std::int64_t> weight(static_cast<std::size_t>(blocks.size()), 0);
+    for (std::int64_t b = comm_.rank(); b < blocks.size(); b += comm_.size())
+      weight[static_cast<std::size_t>(b)] = hexes_in(forest, blocks.cell(b));
+    comm_.sum(weight);
+    return balanced_parts(forest.blocks(0), weight, comm_.size());
+  }
+
+  Overlay start(HexMesh cells, Material& material) const {
+    Overlay out;
+    out.cells = std::move(cells);
+    out.materials = std::move(material.table);
+    out.grid = out.numbered = grid_.cells;
+    out.pure = material.pure;
+    out.exact = source_.exact_surface();
+    return out;
+  }
+  Overlay overlay(LeafMesh mesh, Material& material) const {
+    Fractions owned;
+    collectively(comm_, "measuring the refined cells",
+                 [&] { owned = leaf_fractions(grid_, mesh, *material.field); });
+    Overlay out = start(std::move(mesh.cells), material);
+    out.fractions = with_ghosts(out.cells, owned);
+    stages_.end("measure refined cells");
+    return out;
+  }
+
+  const Comm& comm_;
+  const Deck& deck_;
+  MaterialSource& source_;
+  Grid grid_;
+  const Log& log_;
+  Stages& stages_;
+  int layers_, levels_ = 0;
+  std::array<bool, 3> periodic_;
+};
+
+}  // namespace
+
+Overlay read_adapted(const Comm& comm, const Deck& deck, MaterialSource& source, const Grid& grid,
+                     const Log& log, Stages& stages) {
+  if (!coarsens(deck)) return Adapter(comm, deck, source, grid, log, stages).refined();
+  if (!source.is_data())
+    throw Error(fmt::format(
+        "option 'adapt_type' ({}): {} needs data on a dense grid; shapes are refined by vfrac_average",
+        deck.given_options.place("adapt_type"), type_name(deck)));
+  Adapter adapter(comm, deck, source, coarse_grid(deck, grid, log), log, stages);
+  return deck.adapt_type == kAdaptCoarsen ? adapter.refined() : adapter.resampled();
+}
+
+}  // namespace sculpt

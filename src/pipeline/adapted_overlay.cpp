@@ -325,7 +325,7 @@ class Adapter {
     Overlay out;
     out.cells = std::move(cells);
     out.materials = std::move(material.table);
-    out.grid = grid_.cells;
+    out.grid = out.numbered = grid_.cells;
     out.pure = material.pure;
     out.exact = source_.exact_surface();
     return out;

@@ -148,18 +148,18 @@ Brep build_brep(const Comm& comm, const HexMesh& cells, const FaceNeighbours& ne
   return brep;
 }
 
-int side_of_box(const HexMesh& cells, const FaceNeighbours& neighbours, LocalId cell, int face) {
-  const Image here = cells.image_of(cell);
-  if (here != Image{0, 0, 0}) return -1;
-  const LocalId other = neighbours[at(cell)][static_cast<std::size_t>(face)];
-  if (other == kNone) {
-    const std::uint8_t sides = face_sides(cells, cell, face);
-    return sides == 0 ? -1 : std::countr_zero(sides);
-  }
-  const Image there = cells.image_of(other);
+int side_towards(const Image& image) {
   for (std::size_t d = 0; d < 3; ++d)
-    if (there[d] != 0) return static_cast<int>(2 * d) + (there[d] > 0 ? 1 : 0);
+    if (image[d] != 0) return static_cast<int>(2 * d) + (image[d] > 0 ? 1 : 0);
   return -1;
+}
+
+int side_of_box(const HexMesh& cells, const FaceNeighbours& neighbours, LocalId cell, int face) {
+  if (side_towards(cells.image_of(cell)) >= 0) return -1;
+  const LocalId other = neighbours[at(cell)][static_cast<std::size_t>(face)];
+  if (other != kNone) return side_towards(cells.image_of(other));
+  const std::uint8_t sides = face_sides(cells, cell, face);
+  return sides == 0 ? -1 : std::countr_zero(sides);
 }
 
 BoxFaces trace_box_faces(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,

@@ -90,7 +90,7 @@ class Planner {
           first_out || (!second_out && cells_.material[at(q.cell[1])] > cells_.material[at(q.cell[0])]);
       const LocalId cell = q.cell[by_second];
       const bool exterior = first_out || second_out;
-      const bool across_period = cells_.image_of(q.cell[!by_second]) != Image{0, 0, 0};
+      const bool across_period = side_towards(cells_.image_of(q.cell[!by_second])) >= 0;
       if (cells_.layer[at(cell)] != 0 || (across_period && !exterior)) continue;
       plan_.inner.push_back(
           {cells_.hex_id[at(cell)], by_second ? face_of_second(q) : q.face, set_of(q, i, exterior)});
@@ -172,16 +172,8 @@ struct FaceOnSide {
   auto operator<=>(const FaceOnSide&) const = default;
 };
 
-// The side that lies between an image and the domain; at an edge of the domain the one across the first axis.
-int side_towards(const Image& image) {
-  for (std::size_t d = 0; d < 3; ++d)
-    if (image[d] != 0) return static_cast<int>(2 * d) + (image[d] > 0 ? 1 : 0);
-  return -1;
-}
-
-// The faces of owned hexes whose other side is an image, ascending. Those are the periodic sides of the
-// mesh: at edges of the domain the hexes on both sides of a face may lie in neither x nor y of each other,
-// but across both.
+// The faces of owned hexes whose other side is an image, ascending: the periodic sides of the mesh. At edges
+// of the domain the other side may be a period away in two directions at once.
 std::vector<FaceOnSide> faces_towards_images(const HexMesh& mesh) {
   std::vector<FaceOnSide> out;
   std::vector<std::uint8_t> of_image(mesh.position.size(), 0);

@@ -28,6 +28,10 @@ struct Brep {
 [[nodiscard]] Brep build_brep(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
                               const Interfaces& faces);
 
+// The bit number of the BoxSide between the domain and an image; where several are, that across the first
+// axis; -1 for what is no image.
+[[nodiscard]] int side_towards(const Image& image);
+
 // Local. The bit number of the BoxSide that a face of a cell lies on, which may also be one of a periodic
 // axis (there the neighbour is an image); -1 inside the box, for outer faces of the last ghost layer, and for
 // images.

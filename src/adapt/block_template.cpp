@@ -8,6 +8,7 @@
 
 #include "adapt/template_shape.hpp"
 #include "sculpt/geom/hex.hpp"
+#include "sculpt/mesh/colour.hpp"
 
 namespace sculpt {
 
@@ -402,6 +403,21 @@ class BlockCutter {
   std::map<std::vector<LocalId>, LocalId> made_;  // nodes of this pass, by their parents
 };
 
+void colour_interior(BlockTemplate& block) {
+  const std::size_t nodes = block.node.size();
+  std::vector<std::uint8_t> colour(nodes, kNoColour);
+  for (std::size_t n = block.surface; n < nodes; ++n) {
+    std::uint64_t taken = 0;
+    for (const auto& hex : block.hex) {
+      if (std::find(hex.begin(), hex.end(), n) == hex.end()) continue;
+      for (const std::uint16_t other : hex)
+        if (colour[other] != kNoColour) taken |= std::uint64_t{1} << (colour[other] - kFirstFreeColour);
+    }
+    colour[n] = static_cast<std::uint8_t>(kFirstFreeColour + std::countr_one(taken));
+  }
+  block.interior_colour.assign(colour.begin() + static_cast<std::ptrdiff_t>(block.surface), colour.end());
+}
+
 }  // namespace
 
 std::unique_ptr<const BlockTemplate> block_template(BlockPattern pattern, unsigned ends) {
@@ -430,6 +446,7 @@ std::unique_ptr<const BlockTemplate> block_template(BlockPattern pattern, unsign
     for (std::size_t c = 0; c < 8; ++c) out[c] = static_cast<std::uint16_t>(index[at(hex[c])]);
   }
   relax_interior(*result, ends);
+  if (pattern != 0) colour_interior(*result);
   return result;
 }
 

@@ -26,6 +26,9 @@ struct BlockTemplate {
   // multiples of 1/8 and tell them apart, in this block and in those beside it. `surface` counts them.
   std::vector<Vec3> node;
   std::size_t surface = 0;
+  // Of the interior nodes (from `surface`), which only meet nodes of this block: from kFirstFreeColour
+  // upwards, no two alike in one hex. Not of plain blocks, whose nodes are a lattice.
+  std::vector<std::uint8_t> interior_colour;
   std::vector<std::array<std::uint16_t, 8>> hex;  // Exodus corner order
   // Sides (bit order of the faces of a pattern) where a hex has two faces. The block beyond must not have any
   // there, or two hexes would share two faces; nor may the domain end there.

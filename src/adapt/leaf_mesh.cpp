@@ -29,6 +29,8 @@ class Builder {
  public:
   Builder(const Comm& comm, const Grid& grid, const Forest& forest, const BlockParts& parts, int layers)
       : comm_(comm), grid_(grid), forest_(forest), parts_(parts), layers_(layers) {
+    const std::array<bool, 3>& axes = forest.periodic();
+    periodic_ = axes[0] || axes[1] || axes[2];
     unit_ = std::int64_t{4}
             << forest.levels();  // per cell of the grid: an eighth of the finest cell in transition
     edge_ = 2 * unit_;
@@ -50,6 +52,7 @@ class Builder {
       check_range();
       if (region_.empty()) return;
       collect_nodes();
+      index_blocks();
       make_hexes();
       number_layers();
     });
@@ -61,7 +64,8 @@ class Builder {
   // A template with the place of its block; nodes of plain blocks are a 3x3x3 lattice.
   struct Placed {
     int level;
-    Index3 low;  // of the block, in units, beyond the grid for images
+    Index3 base;  // the block of level 0 it is in, beyond the grid for images
+    Index3 low;   // its low corner, in units from that of the base
     const BlockTemplate* shape;
     std::int64_t step;  // units per cell
     bool plain;         // cubes
@@ -79,20 +83,24 @@ class Builder {
   [[nodiscard]] std::int64_t block_number(const Index3& b) const {
     return (b[0] + margin_[0]) + extended_[0] * ((b[1] + margin_[1]) + extended_[1] * (b[2] + margin_[2]));
   }
-  [[nodiscard]] Index3 block_at(const Index3& units) const {
-    Index3 b;
-    for (std::size_t d = 0; d < 3; ++d) b[d] = (units[d] + margin_[d] * edge_) / edge_ - margin_[d];
-    return b;
-  }
-  [[nodiscard]] GlobalId key(const Index3& units, std::int64_t code) const {
-    const Index3 b = block_at(units);
-    const std::int64_t x = units[0] - b[0] * edge_, y = units[1] - b[1] * edge_, z = units[2] - b[2] * edge_;
-    return block_number(b) * per_block_ + ((z * edge_ + y) * edge_ + x) * kCodes + code;
+  // How many periods a block lies beyond the grid, and the block of the grid that it is an image of.
+  [[nodiscard]] Image image_of(const Index3& block) const {
+    Image image{0, 0, 0};
+    for (std::size_t d = 0; d < 3; ++d)
+      if (forest_.periodic()[d])
+        image[d] = static_cast<std::int16_t>((block[d] - (block[d] < 0 ? parts_.blocks[d] - 1 : 0)) /
+                                             parts_.blocks[d]);  // rounded down
+    return image;
   }
   [[nodiscard]] Index3 wrapped(Index3 block) const {
-    for (std::size_t d = 0; d < 3; ++d)
-      if (forest_.periodic()[d]) block[d] = (block[d] + parts_.blocks[d]) % parts_.blocks[d];
+    const Image image = image_of(block);
+    for (std::size_t d = 0; d < 3; ++d) block[d] -= image[d] * parts_.blocks[d];
     return block;
+  }
+  [[nodiscard]] std::int32_t owner_of(Index3 block, const Image& image) const {
+    for (std::size_t d = 0; d < 3; ++d)
+      block[d] = std::min(block[d] - image[d] * parts_.blocks[d], parts_.blocks[d] - 1);
+    return parts_.owner_of(block) + (image == Image{0, 0, 0} ? 0 : comm_.size());
   }
 
   template <class Visit>
@@ -101,18 +109,34 @@ class Builder {
     forest_.for_each_leaf(real, [&](int level, const Index3& block) {
       const std::int64_t step = unit_ >> level;
       const std::uint32_t pattern = forest_.pattern(level, block);
-      Placed p{level, {}, &transition(pattern, forest_.ends(level, block)), step, pattern == 0};
-      for (std::size_t d = 0; d < 3; ++d) p.low[d] = 2 * block[d] * step + (base[d] - real[d]) * edge_;
+      Placed p{level, base, {}, &transition(pattern, forest_.ends(level, block)), step, pattern == 0};
+      for (std::size_t d = 0; d < 3; ++d) p.low[d] = 2 * block[d] * step - real[d] * edge_;
       visit(p, block);
     });
   }
-  // The key of a node of a template. Nodes inside the block go by its low corner.
-  [[nodiscard]] GlobalId key_of(const Placed& p, std::size_t node) const {
-    if (node >= p.shape->surface) return key(p.low, static_cast<std::int64_t>(node - p.shape->surface) + 1);
+  // Where a node of a template lies, in units from the low corner of the block of level 0. Nodes inside the
+  // block go by its low corner.
+  [[nodiscard]] Index3 place_of(const Placed& p, std::size_t node) const {
+    if (node >= p.shape->surface) return p.low;
     Index3 units;
     for (std::size_t d = 0; d < 3; ++d)
       units[d] = p.low[d] + static_cast<std::int64_t>(p.shape->node[node][d] * static_cast<double>(p.step));
-    return key(units, 0);
+    return units;
+  }
+  // The key of a node; its block moves to the one that the node belongs to: the high sides of a block are
+  // those of the next.
+  [[nodiscard]] GlobalId key_of(const Placed& p, std::size_t node, Index3& block) const {
+    Index3 units = place_of(p, node);
+    block = p.base;
+    for (std::size_t d = 0; d < 3; ++d)
+      if (units[d] == edge_) {
+        units[d] = 0;
+        ++block[d];
+      }
+    const std::int64_t code =
+        node < p.shape->surface ? 0 : static_cast<std::int64_t>(node - p.shape->surface) + 1;
+    return block_number(block) * per_block_ + ((units[2] * edge_ + units[1]) * edge_ + units[0]) * kCodes +
+           code;
   }
 
   // All nodes, ascending in their keys. A block of level 0 uses every node on its low sides, so that nearly
@@ -122,15 +146,15 @@ class Builder {
     std::int64_t hexes = 0;
     for (std::int64_t i = 0; i < region_.size(); ++i) {
       const Index3 base = region_.cell(i);
-      const GlobalId from = block_number(base) * per_block_, to = from + per_block_;
       mine.clear();
       for_each_leaf_of(base, [&](const Placed& p, const Index3&) {
         hexes += static_cast<std::int64_t>(p.shape->hex.size());
         for (std::size_t n = 0; n < p.shape->node.size(); ++n) {
-          const GlobalId k = key_of(p, n);
-          if (k >= from && k < to)
+          Index3 block;
+          const GlobalId k = key_of(p, n, block);
+          if (block == base)
             mine.push_back(k);
-          else if (!region_.contains(block_of(k)))
+          else if (!region_.contains(block))
             beyond.push_back(k);
         }
       });
@@ -148,12 +172,6 @@ class Builder {
       throw Error(fmt::format("{} cells on one rank: at most {} fit; use more ranks", hexes, kMost));
     expected_ = static_cast<std::size_t>(hexes);
   }
-  [[nodiscard]] Index3 block_of(GlobalId k) const {
-    const std::int64_t b = k / per_block_;
-    return {b % extended_[0] - margin_[0], b / extended_[0] % extended_[1] - margin_[1],
-            b / extended_[0] / extended_[1] - margin_[2]};
-  }
-
   void make_hexes() {
     HexMesh& m = out_.cells;
     const std::size_t nodes = keys_.size();
@@ -165,12 +183,17 @@ class Builder {
     m.hexes.reserve(expected_);
     hex_key_.reserve(expected_);
     m.hex_owner.reserve(expected_);
+    if (periodic_) {
+      m.node_home.resize(nodes);
+      m.node_image.resize(nodes);
+    }
     std::vector<LocalId> local;
     for (std::int64_t i = 0; i < region_.size(); ++i) {
       const Index3 base = region_.cell(i);
-      const std::int32_t owner = parts_.owner_of(wrapped(base));
-      const bool mine = owner == comm_.rank() && base == wrapped(base);
-      std::int64_t number = block_number(base) << 32;
+      const Image image = image_of(base);
+      const std::int32_t owner = owner_of(base, image);
+      const bool mine = owner == comm_.rank();
+      std::int64_t number = block_number(base) << 32, home = block_number(wrapped(base)) << 32;
       for_each_leaf_of(base, [&](const Placed& p, const Index3& block) {
         find_nodes(p, local);
         for (std::size_t n = 0; n < local.size(); ++n) see(p, n, local[n]);
@@ -181,6 +204,9 @@ class Builder {
           m.hexes.push_back(hex);
           hex_key_.push_back(number++);
           m.hex_owner.push_back(owner);
+          if (!periodic_) continue;
+          m.hex_home.push_back(home++);
+          m.hex_image.push_back(image);
         }
         leaf.end = m.size();
         if (mine) out_.leaves.push_back(leaf);
@@ -188,15 +214,26 @@ class Builder {
     }
   }
 
+  // Where the keys of the blocks begin that the region uses nodes of.
+  void index_blocks() {
+    known_ = region_;
+    for (std::size_t d = 0; d < 3; ++d) ++known_.hi[d];
+    start_.clear();
+    for (std::int64_t i = 0; i < known_.size(); ++i)
+      start_.push_back(
+          std::lower_bound(keys_.begin(), keys_.end(), block_number(known_.cell(i)) * per_block_) -
+          keys_.begin());
+    start_.push_back(static_cast<std::ptrdiff_t>(keys_.size()));
+  }
+
   void find_nodes(const Placed& p, std::vector<LocalId>& local) const {
     local.resize(p.shape->node.size());
-    auto hint = keys_.begin();
     for (std::size_t n = 0; n < local.size(); ++n) {
-      const GlobalId k = key_of(p, n);
-      // Nodes in a row follow each other.
-      if (hint == keys_.end() || *hint != k) hint = std::lower_bound(keys_.begin(), keys_.end(), k);
-      local[n] = static_cast<LocalId>(hint - keys_.begin());
-      ++hint;
+      Index3 block;
+      const GlobalId k = key_of(p, n, block);
+      const auto i = static_cast<std::size_t>(known_.position(block));
+      const auto found = std::lower_bound(keys_.begin() + start_[i], keys_.begin() + start_[i + 1], k);
+      local[n] = static_cast<LocalId>(found - keys_.begin());
     }
   }
 
@@ -208,10 +245,13 @@ class Builder {
     if (p.plain) {
       unsigned parity = 0;
       for (std::size_t d = 0; d < 3; ++d) {
-        const std::int64_t cell = p.low[d] / p.step + static_cast<std::int64_t>(p.shape->node[n][d]);
+        const std::int64_t cell =
+            (p.base[d] * edge_ + p.low[d]) / p.step + static_cast<std::int64_t>(p.shape->node[n][d]);
         parity |= static_cast<unsigned>(cell & 1) << d;
       }
       colour = static_cast<std::uint8_t>(parity);
+    } else if (n >= p.shape->surface) {
+      colour = p.shape->interior_colour[n - p.shape->surface];
     }
     if (m.level[at(local)] != kUnset) {
       if (m.level[at(local)] != level) colour = kNoColour;
@@ -229,21 +269,24 @@ class Builder {
     HexMesh& m = out_.cells;
     Vec3 x;
     unsigned sides = 0;
-    Index3 units;
     for (std::size_t d = 0; d < 3; ++d) {
-      const double in_units =
-          static_cast<double>(p.low[d]) + p.shape->node[n][d] * static_cast<double>(p.step);
-      units[d] = n < p.shape->surface ? static_cast<std::int64_t>(in_units) : p.low[d];
+      const double in_units = static_cast<double>(p.base[d] * edge_ + p.low[d]) +
+                              p.shape->node[n][d] * static_cast<double>(p.step);
       if (!forest_.periodic()[d] && in_units == 0) sides |= 1U << (2 * d);
       if (!forest_.periodic()[d] && in_units == static_cast<double>(grid_.cells[d] * unit_))
         sides |= 2U << (2 * d);
       x[d] = coordinate(grid_.planes[d], in_units / static_cast<double>(unit_));
     }
-    Index3 block = wrapped(block_at(units));
-    for (std::size_t d = 0; d < 3; ++d) block[d] = std::min(block[d], parts_.blocks[d] - 1);
+    Index3 block;
+    const GlobalId key = key_of(p, n, block);
+    const Image image = image_of(block);
+    m.node_owner[at(local)] = owner_of(block, image);
+    if (periodic_) {
+      m.node_home[at(local)] = key + (block_number(wrapped(block)) - block_number(block)) * per_block_;
+      m.node_image[at(local)] = image;
+    }
     m.position[at(local)] = x;
     m.box_sides[at(local)] = static_cast<std::uint8_t>(sides);
-    m.node_owner[at(local)] = parts_.owner_of(block);
   }
 
   // Ghost layers outwards from the owned hexes; what is farther away is dropped.
@@ -285,6 +328,10 @@ class Builder {
     compact(m.hex_owner, index);
     compact(m.layer, index);
     compact(hex_key_, index);
+    if (periodic_) {
+      compact(m.hex_home, index);
+      compact(m.hex_image, index);
+    }
     for (Leaf& leaf : out_.leaves) {
       const LocalId count = leaf.end - leaf.first;
       leaf.first = index[at(leaf.first)];
@@ -297,16 +344,16 @@ class Builder {
 
   void finish() {
     HexMesh& m = out_.cells;
-    GlobalId total = 0;
-    m.node_id = dense_numbers(comm_, keys_, total);
-    m.hex_id = dense_numbers(comm_, hex_key_, total);
+    m.node_id = numbered(keys_, m.node_home);
+    m.hex_id = numbered(hex_key_, m.hex_home);
     keys_ = {};
     hex_key_ = {};
     m.material.assign(m.hexes.size(), 0);
     m.cell_size = grid_.cell_size();
     m.ghost_layers = layers_;
-    m.node_exchange = GhostExchange(comm_, m.node_id, m.node_owner);
-    m.hex_exchange = GhostExchange(comm_, m.hex_id, m.hex_owner);
+    set_period(m, grid_, forest_.periodic(), layers_);
+    connect_ranks(comm_, m);
+    share_positions(m);
     // The outermost nodes do not see all their hexes.
     m.node_exchange.copy_to_ghosts(m.level);
     m.node_exchange.copy_to_ghosts(m.colour);
@@ -314,14 +361,37 @@ class Builder {
     colour_nodes(m, preset);
   }
 
+  // Dense ids of ascending keys; `homes`, keys of other entities, become dense ids as well.
+  [[nodiscard]] std::vector<GlobalId> numbered(const std::vector<GlobalId>& keys,
+                                               std::vector<GlobalId>& homes) const {
+    GlobalId total = 0;
+    if (!periodic_) return dense_numbers(comm_, keys, total);
+    std::vector<GlobalId> all(keys);
+    all.insert(all.end(), homes.begin(), homes.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    const std::vector<GlobalId> dense = dense_numbers(comm_, all, total);
+    const auto id_of = [&](GlobalId key) {
+      return dense[static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), key) - all.begin())];
+    };
+    std::vector<GlobalId> ids;
+    ids.reserve(keys.size());
+    for (const GlobalId key : keys) ids.push_back(id_of(key));
+    for (GlobalId& home : homes) home = id_of(home);
+    return ids;
+  }
+
   const Comm& comm_;
   const Grid& grid_;
   const Forest& forest_;
   const BlockParts& parts_;
   int layers_;
+  bool periodic_;                                     // in any axis
   std::int64_t unit_ = 0, edge_ = 0, per_block_ = 0;  // per cell; per block; keys per block
   Index3 margin_{0, 0, 0}, extended_{0, 0, 0};        // blocks of images per side; blocks that have keys
   IndexBox region_;                                   // blocks of level 0 that are looked at
+  IndexBox known_;                                    // those that they use nodes of
+  std::vector<std::ptrdiff_t> start_;                 // of the keys of each of these
   std::size_t expected_ = 0;
   std::vector<GlobalId> keys_, hex_key_;
   LeafMesh out_;

@@ -42,11 +42,11 @@ std::int64_t find_volumes(const Comm& comm, const HexMesh& cells, const FaceNeig
                           std::vector<std::int32_t>& volume) {
   Components parts =
       connected_components(comm, cells.lattice[0] > 0 ? join_lattice(cells) : join_any(cells, neighbours),
-                           cells.hex_id, cells.hex_exchange);
+                           cells.hex_homes(), cells.hex_exchange);
   std::vector<std::int32_t> material;
   material.reserve(parts.first.size());
   for (const LocalId c : parts.first) material.push_back(cells.material[at(c)]);
-  const std::int64_t count = number_components(comm, parts, cells.hex_id, material);
+  const std::int64_t count = number_components(comm, parts, cells.hex_homes(), material);
   volume = std::move(parts.of);
   return count;
 }
@@ -88,17 +88,19 @@ DisjointSets join_quads(const Interfaces& faces, const std::vector<std::uint8_t>
 
 std::int64_t find_surfaces(const Comm& comm, const HexMesh& cells, const Interfaces& faces,
                            const std::vector<std::uint8_t>& settled, std::vector<std::int32_t>& surface) {
-  std::vector<GlobalId> ids;
+  std::vector<GlobalId> ids, homes;
   std::vector<std::int32_t> owner;
   ids.reserve(faces.quads.size());
+  homes.reserve(faces.quads.size());
   owner.reserve(faces.quads.size());
   for (const InterfaceQuad& q : faces.quads) {
     ids.push_back(8 * cells.hex_id[at(q.cell[0])] + q.face);
+    homes.push_back(8 * cells.hex_homes()[at(q.cell[0])] + q.face);
     owner.push_back(cells.hex_owner[at(q.cell[0])]);
   }
   Components parts =
-      connected_components(comm, join_quads(faces, settled), ids, GhostExchange(comm, ids, owner));
-  const std::int64_t count = number_components(comm, parts, ids);
+      connected_components(comm, join_quads(faces, settled), homes, GhostExchange(comm, ids, owner, homes));
+  const std::int64_t count = number_components(comm, parts, homes);
   surface = std::move(parts.of);
   return count;
 }
@@ -106,12 +108,13 @@ std::int64_t find_surfaces(const Comm& comm, const HexMesh& cells, const Interfa
 // Chains of kCurve nodes, and single edges between two vertices.
 void count_curves(const Comm& comm, const HexMesh& cells, const Interfaces& faces,
                   const std::vector<std::uint8_t>& settled, Brep& brep) {
-  std::vector<GlobalId> ids;
+  std::vector<GlobalId> ids, homes;
   std::vector<std::int32_t> owner;
   DisjointSets sets(faces.nodes.size());
   std::int64_t vertices = 0, curves = 0;
   for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
     ids.push_back(cells.node_id[at(faces.nodes[i])]);
+    homes.push_back(cells.node_homes()[at(faces.nodes[i])]);
     owner.push_back(cells.node_owner[at(faces.nodes[i])]);
     if (!settled[i]) continue;
     const bool is_vertex = faces.kind[i] == NodeClass::kVertex, own = owner[i] == comm.rank();
@@ -124,11 +127,11 @@ void count_curves(const Comm& comm, const HexMesh& cells, const Interfaces& face
         sets.join(static_cast<LocalId>(i), end);
     }
   }
-  const Components chains = connected_components(comm, std::move(sets), ids, GhostExchange(comm, ids, owner));
-  for (std::size_t c = 0; c < chains.first.size(); ++c) {
-    const std::size_t i = at(chains.first[c]);
-    curves += owner[i] == comm.rank() && faces.kind[i] == NodeClass::kCurve && chains.label[c] == ids[i];
-  }
+  const Components chains =
+      connected_components(comm, std::move(sets), homes, GhostExchange(comm, ids, owner, homes));
+  for (std::size_t i = 0; i < ids.size(); ++i)  // each chain is counted at the node that gives it its label
+    curves += owner[i] == comm.rank() && faces.kind[i] == NodeClass::kCurve &&
+              chains.label[at(chains.of[i])] == ids[i];
   brep.vertices = comm.sum(vertices);
   brep.curves = comm.sum(curves);
 }
@@ -145,6 +148,20 @@ Brep build_brep(const Comm& comm, const HexMesh& cells, const FaceNeighbours& ne
   return brep;
 }
 
+int side_towards(const Image& image) {
+  for (std::size_t d = 0; d < 3; ++d)
+    if (image[d] != 0) return static_cast<int>(2 * d) + (image[d] > 0 ? 1 : 0);
+  return -1;
+}
+
+int side_of_box(const HexMesh& cells, const FaceNeighbours& neighbours, LocalId cell, int face) {
+  if (side_towards(cells.image_of(cell)) >= 0) return -1;
+  const LocalId other = neighbours[at(cell)][static_cast<std::size_t>(face)];
+  if (other != kNone) return side_towards(cells.image_of(other));
+  const std::uint8_t sides = face_sides(cells, cell, face);
+  return sides == 0 ? -1 : std::countr_zero(sides);
+}
+
 BoxFaces trace_box_faces(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
                          const std::vector<std::int32_t>& volume) {
   BoxFaces out;
@@ -152,10 +169,9 @@ BoxFaces trace_box_faces(const Comm& comm, const HexMesh& cells, const FaceNeigh
   std::vector<std::int32_t> owner;
   for (LocalId c = 0; c < cells.size(); ++c)
     for (int f = 0; f < 6; ++f) {
-      if (neighbours[at(c)][static_cast<std::size_t>(f)] != kNone) continue;
-      const std::uint8_t sides = face_sides(cells, c, f);
-      if (sides == 0) continue;  // the outer face of the last ghost layer
-      out.faces.push_back({c, f, std::countr_zero(sides)});
+      const int on_side = side_of_box(cells, neighbours, c, f);
+      if (on_side < 0) continue;
+      out.faces.push_back({c, f, on_side});
       ids.push_back(8 * cells.hex_id[at(c)] + f);
       owner.push_back(cells.hex_owner[at(c)]);
     }

@@ -17,17 +17,18 @@ constexpr double kRounding = 1e-12;            // shorter ways to the interface,
 class Smoother {
  public:
   Smoother(HexMesh& mesh, const Interfaces& faces, CurveRule rule) : mesh_(mesh), faces_(faces), rule_(rule) {
-    std::vector<GlobalId> id;
+    std::vector<GlobalId> id, home;
     std::vector<std::int32_t> owner;
     x_.reserve(faces.nodes.size());
     for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
       x_.push_back(mesh.position[at(faces.nodes[i])]);
       id.push_back(mesh.node_id[at(faces.nodes[i])]);
+      home.push_back(mesh.node_homes()[at(faces.nodes[i])]);
       owner.push_back(mesh.node_owner[at(faces.nodes[i])]);
       if (mesh.node_owner[at(faces.nodes[i])] == mesh.node_exchange.comm().rank())
         owned_.push_back(static_cast<LocalId>(i));
     }
-    exchange_ = GhostExchange(mesh.node_exchange.comm(), id, owner);
+    exchange_ = GhostExchange(mesh.node_exchange.comm(), id, owner, home);
   }
 
   // One Jacobi pass: every node goes `factor` of the way to where it wants to be. Rules that keep the shape
@@ -36,7 +37,7 @@ class Smoother {
     moved_ = x_;
     for (const LocalId i : owned_) moved_[at(i)] += factor * held_on_box(wish(at(i), factor < 0), sides(i));
     x_.swap(moved_);
-    exchange_.copy_to_ghosts(x_);
+    share_positions(mesh_, exchange_, faces_.nodes, x_);
   }
 
   void project(const std::vector<Crossing>& crossings, const ExactSurface& exact) {
@@ -45,7 +46,7 @@ class Smoother {
       const Vec3 move = held_on_box(onto_geometry(mesh_, faces_, crossings, exact, at(i), p) - p, sides(i));
       if (largest(scaled(move, mesh_.per_cell(faces_.nodes[at(i)]))) > kRounding) p += move;
     }
-    exchange_.copy_to_ghosts(x_);
+    share_positions(mesh_, exchange_, faces_.nodes, x_);
   }
 
   // A shrinking pass after which nodes of surfaces go back to the quadric of where they and their neighbours
@@ -59,7 +60,7 @@ class Smoother {
         p += held_on_box(onto_quadric(quadric_at(i), p) - p, sides(i));
     }
     x_.swap(moved_);
-    exchange_.copy_to_ghosts(x_);
+    share_positions(mesh_, exchange_, faces_.nodes, x_);
   }
 
   // The result goes to the mesh, ghosts included.
@@ -86,8 +87,12 @@ class Smoother {
     return growing ? Vec3{} : curve_wish(i);
   }
 
-  // Whether the curve is but the edge of one surface, on the box: it is smoothed as the surface is.
-  [[nodiscard]] bool ends_surface(std::size_t i) const { return faces_.node_quads[i].size() == 2; }
+  // Whether the curve is but the edge of one surface, on the box: it is smoothed as the surface is. Both its
+  // edges have one quad then, the others, which are all but two, have two, and every quad has two edges at
+  // the node.
+  [[nodiscard]] bool ends_surface(std::size_t i) const {
+    return faces_.node_quads[i].size() + 1 == faces_.neighbours[i].size();
+  }
 
   // The next node of the curve beyond b, coming from i; b itself at the end of the curve.
   [[nodiscard]] LocalId beyond(LocalId i, LocalId b) const {
@@ -181,7 +186,7 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
     if (most > farthest)
       p = grid_position[i] + held_on_box((farthest / most) * move, mesh.box_sides[at(faces.nodes[i])]);
   }
-  mesh.node_exchange.copy_to_ghosts(mesh.position);
+  share_positions(mesh);
 }
 
 Quadric surface_quadric(const HexMesh& mesh, const Interfaces& faces, std::size_t i,

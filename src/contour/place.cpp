@@ -109,7 +109,7 @@ void place_nodes(HexMesh& mesh, const Interfaces& faces, const std::vector<Cross
     Vec3& p = mesh.position[at(n)];
     p = within_reach(mesh, n, p, onto_interface(mesh, faces, crossings, i, p));
   }
-  mesh.node_exchange.copy_to_ghosts(mesh.position);
+  share_positions(mesh);
 }
 
 }  // namespace sculpt

@@ -14,6 +14,8 @@ constexpr EnumValue kHtetMethods[] = {{"structured", kHtetStructured}, {"unstruc
 constexpr EnumValue kHtetTransitions[] = {
     {"none", kHtetNone}, {"pyramid", kHtetPyramid}, {"tied_contact", kHtetTiedContact}};
 constexpr EnumValue kAxes[] = {{"none", kAxisNone}, {"x", kAxisX}, {"y", kAxisY}, {"z", kAxisZ}};
+constexpr EnumValue kDirections[] = {{"xyz", kAlongXYZ}, {"x", kAlongX},   {"y", kAlongY},  {"z", kAlongZ},
+                                     {"xy", kAlongXY},   {"xz", kAlongXZ}, {"yz", kAlongYZ}};
 constexpr EnumValue kGenSidesets[] = {
     {"off", kSidesetsOff},
     {"none", kSidesetsOff},
@@ -302,20 +304,35 @@ constexpr OptionSpec kTypeOptions[] = {
      .group = kT,
      .slot = &Deck::periodic,
      .help = "Periodic mesh",
-     .about = "Opposite faces of the box match under a translation by one period."},
+     .about = "Nodes and faces on opposite sides of the grid match under a translation by one period, and "
+              "interfaces run through the sides as if the grid went on beyond them. The nodes there are not "
+              "held on the sides, which become ragged. Needs two cells at least in each direction.",
+     .supported = true},
+    {.name = "periodic_directions",
+     .flag = "-pd",
+     .group = kT,
+     .slot = &Deck::periodic_directions,
+     .help = "Directions in which the mesh is periodic",
+     .about = "Not an option of Sculpt. Used with periodic; the sides across other directions stay flat.",
+     .supported = true,
+     .values = kDirections},
     {.name = "check_periodic",
      .flag = "-cp",
      .group = kT,
      .slot = &Deck::check_periodic,
      .help = "Check that the input is periodic",
-     .about = "Used with periodic.",
+     .about =
+         "Used with periodic and diatom_file: the shapes must fill the cells just outside a side as they "
+         "fill those inside the opposite side. Data on a grid are taken as one period.",
+     .supported = true,
      .takes_argument = true},
     {.name = "check_periodic_tol",
      .flag = "-cpt",
      .group = kT,
      .slot = &Deck::check_periodic_tol,
      .help = "Tolerance of check_periodic",
-     .about = "Used with periodic.",
+     .about = "Largest difference of a volume fraction.",
+     .supported = true,
      .lo = 0},
     {.name = "periodic_axis",
      .flag = "-pax",
@@ -329,8 +346,11 @@ constexpr OptionSpec kTypeOptions[] = {
      .group = kT,
      .slot = &Deck::periodic_nodesets,
      .help = "Nodesets of the periodic sides",
-     .about = "Pairs of ids.",
-     .lo = 0,
+     .about =
+         "Pairs of ids, for the low side (master) and the high side (slave) of each periodic direction in "
+         "the order x, y, z. In ascending node id the nodes of both sides come in the same order.",
+     .supported = true,
+     .lo = 1,
      .hi = kMaxId,
      .unset = "none"},
 };

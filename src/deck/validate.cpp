@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <filesystem>
 
@@ -76,6 +77,16 @@ bool empty_x(const Deck& deck) { return all_given(deck, {"xmin", "xmax"}) && dec
 bool empty_y(const Deck& deck) { return all_given(deck, {"ymin", "ymax"}) && deck.ymin >= deck.ymax; }
 bool empty_z(const Deck& deck) { return all_given(deck, {"zmin", "zmax"}) && deck.zmin >= deck.zmax; }
 
+int periodic_directions(const Deck& deck) {
+  return std::popcount(static_cast<unsigned>(deck.periodic_directions));
+}
+bool wrong_nodesets(const Deck& deck) {
+  std::vector<std::int64_t> ids = deck.periodic_nodesets;
+  std::sort(ids.begin(), ids.end());
+  return ids.size() != static_cast<std::size_t>(2 * periodic_directions(deck)) ||
+         std::adjacent_find(ids.begin(), ids.end()) != ids.end();
+}
+
 const std::vector<Rule>& rules() {
   static const Names counts = {"nelx", "nely", "nelz"};
   static const Names box = {"xmin", "ymin", "zmin", "xmax", "ymax", "zmax"};
@@ -146,6 +157,24 @@ const std::vector<Rule>& rules() {
        },
        {"opt_method", "opt_damping", "opt_metric"},
        "opt_damping and opt_metric need opt_method = jacobi"},
+      {[](const Deck& d) {
+         return !d.periodic && (d.given("periodic_directions") || d.given("periodic_nodesets"));
+       },
+       {"periodic", "periodic_directions", "periodic_nodesets"},
+       "periodic_directions and periodic_nodesets need periodic = true"},
+      {[](const Deck& d) { return d.periodic && d.given("periodic_nodesets") && wrong_nodesets(d); },
+       {"periodic_directions", "periodic_nodesets"},
+       "periodic_nodesets needs two ids for each periodic direction, all of them different",
+       Tell::kAll},
+      {[](const Deck& d) { return d.periodic && d.micro_expand > 0; },
+       {"periodic", "micro_expand"},
+       "micro_expand puts cells around the data, but the next period begins where periodic data end"},
+      {[](const Deck& d) {
+         return d.periodic && d.periodic_directions == kAlongXYZ && d.pillow_boundary_layers > 0;
+       },
+       {"periodic", "periodic_directions", "pillow_boundary_layers"},
+       "pillow_boundary_layers puts layers along flat sides; a mesh that is periodic in x, y and z has none",
+       Tell::kAll},
   };
   return table;
 }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -43,69 +44,142 @@ bool best_factors(const Index3& n, std::int64_t ranks, const Index3& user, Index
   return found;
 }
 
-// Sides of the domain that hold a grid node.
-std::uint8_t sides_of(const Index3& node, const Index3& cells) {
-  unsigned sides = 0;
-  for (std::size_t d = 0; d < 3; ++d) {
-    if (node[d] == 0) sides |= 1U << (2 * d);
-    if (node[d] == cells[d]) sides |= 2U << (2 * d);
+// The spacing of the doubles around x.
+double spacing(double x) { return std::ldexp(1.0, std::ilogb(x) - 52); }
+
+// Makes the local entities of one rank, images included.
+class LatticeMaker {
+ public:
+  LatticeMaker(HexMesh& mesh, const Grid& grid, const CartesianParts& parts, int layers, int ranks)
+      : mesh_(mesh), grid_(grid), parts_(parts), ranks_(ranks), ids_(numbered_grid(parts, layers)) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (!parts.periodic[d]) continue;
+      any_periodic_ = true;
+      shift_[d] = layers;
+    }
+    set_period(mesh, grid, parts.periodic, layers);
+    // On an axis with an odd number of cells the last ones would meet the first in one colour.
+    for (std::size_t d = 0; d < 3; ++d) colours_[d] = parts.periodic[d] && parts.cells[d] % 2 != 0 ? 3 : 2;
+    mesh.colours = static_cast<int>(colours_[0] * colours_[1] * colours_[2]);
   }
-  return static_cast<std::uint8_t>(sides);
-}
 
-void add_nodes(HexMesh& mesh, const Grid& grid, const CartesianParts& parts, const IndexBox& box) {
-  const auto count =
-      static_cast<std::size_t>((box.extent(0) + 1) * (box.extent(1) + 1) * (box.extent(2) + 1));
-  mesh.position.reserve(count);
-  mesh.node_id.reserve(count);
-  mesh.node_owner.reserve(count);
-  mesh.box_sides.reserve(count);
-  mesh.colour.reserve(count);
-  for (std::int64_t k = box.lo[2]; k <= box.hi[2]; ++k)
-    for (std::int64_t j = box.lo[1]; j <= box.hi[1]; ++j)
-      for (std::int64_t i = box.lo[0]; i <= box.hi[0]; ++i) {
-        const Index3 n{i, j, k};
-        mesh.position.push_back({grid.planes[0][static_cast<std::size_t>(i)],
-                                 grid.planes[1][static_cast<std::size_t>(j)],
-                                 grid.planes[2][static_cast<std::size_t>(k)]});
-        mesh.node_id.push_back(grid.node_id(n));
-        // Owner of the cell with the smallest id around the node.
-        mesh.node_owner.push_back(
-            parts.owner({std::max<std::int64_t>(i - 1, 0), std::max<std::int64_t>(j - 1, 0),
-                         std::max<std::int64_t>(k - 1, 0)}));
-        mesh.box_sides.push_back(sides_of(n, grid.cells));
-        mesh.colour.push_back(static_cast<std::uint8_t>((i & 1) | (j & 1) << 1 | (k & 1) << 2));
-      }
-}
+  void add_nodes(const IndexBox& box) {
+    const auto count =
+        static_cast<std::size_t>((box.extent(0) + 1) * (box.extent(1) + 1) * (box.extent(2) + 1));
+    mesh_.position.reserve(count);
+    mesh_.node_id.reserve(count);
+    mesh_.node_owner.reserve(count);
+    mesh_.box_sides.reserve(count);
+    mesh_.colour.reserve(count);
+    for (std::int64_t k = box.lo[2]; k <= box.hi[2]; ++k)
+      for (std::int64_t j = box.lo[1]; j <= box.hi[1]; ++j)
+        for (std::int64_t i = box.lo[0]; i <= box.hi[0]; ++i) add_node({i, j, k});
+  }
 
-void add_cells(HexMesh& mesh, const Grid& grid, const CartesianParts& parts, const IndexBox& box,
-               const IndexBox& owned) {
-  const auto count = static_cast<std::size_t>(box.size());
-  mesh.hexes.reserve(count);
-  mesh.hex_id.reserve(count);
-  mesh.hex_owner.reserve(count);
-  mesh.layer.reserve(count);
-  const std::int64_t sy = box.extent(0) + 1, sz = sy * (box.extent(1) + 1);
-  for (std::int64_t k = box.lo[2]; k < box.hi[2]; ++k)
-    for (std::int64_t j = box.lo[1]; j < box.hi[1]; ++j)
-      for (std::int64_t i = box.lo[0]; i < box.hi[0]; ++i) {
-        const Index3 c{i, j, k};
-        const std::int64_t first = (i - box.lo[0]) + sy * (j - box.lo[1]) + sz * (k - box.lo[2]);
-        Hex hex;
-        for (std::size_t v = 0; v < 8; ++v)
-          hex[v] = static_cast<LocalId>(first + kCornerOffset[v][0] + sy * kCornerOffset[v][1] +
-                                        sz * kCornerOffset[v][2]);
-        std::int64_t layer = 0;
-        for (std::size_t d = 0; d < 3; ++d)
-          layer = std::max({layer, owned.lo[d] - c[d], c[d] - owned.hi[d] + 1});
-        mesh.hexes.push_back(hex);
-        mesh.hex_id.push_back(grid.cell_id(c));
-        mesh.hex_owner.push_back(parts.owner(c));
-        mesh.layer.push_back(static_cast<std::uint8_t>(layer));
-      }
-}
+  void add_cells(const IndexBox& box, const IndexBox& owned) {
+    const auto count = static_cast<std::size_t>(box.size());
+    mesh_.hexes.reserve(count);
+    mesh_.hex_id.reserve(count);
+    mesh_.hex_owner.reserve(count);
+    mesh_.layer.reserve(count);
+    for (std::int64_t k = box.lo[2]; k < box.hi[2]; ++k)
+      for (std::int64_t j = box.lo[1]; j < box.hi[1]; ++j)
+        for (std::int64_t i = box.lo[0]; i < box.hi[0]; ++i) add_cell({i, j, k}, box, owned);
+  }
+
+ private:
+  // Takes the index of an image into the grid.
+  [[nodiscard]] Image unwrap(Index3& index) const {
+    Image image{0, 0, 0};
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (!parts_.periodic[d]) continue;
+      const std::int64_t n = parts_.cells[d], periods = (index[d] + n * shift_[d]) / n - shift_[d];
+      image[d] = static_cast<std::int16_t>(periods);
+      index[d] -= n * periods;
+    }
+    return image;
+  }
+  [[nodiscard]] GlobalId id(const Index3& index, std::int64_t more) const {
+    return index[0] + shift_[0] +
+           (ids_[0] + more) * (index[1] + shift_[1] + (ids_[1] + more) * (index[2] + shift_[2]));
+  }
+  [[nodiscard]] std::int32_t owner(const Index3& cell, const Image& image) const {
+    return parts_.owner(cell) + (image == Image{0, 0, 0} ? 0 : ranks_);
+  }
+
+  void add_node(const Index3& index) {
+    Index3 home = index;
+    const Image image = unwrap(home);
+    Vec3 p;
+    unsigned sides = 0, colour = 0, stride = 1;
+    for (std::size_t d = 0; d < 3; ++d) {
+      p[d] = grid_.planes[d][static_cast<std::size_t>(home[d])];
+      if (!parts_.periodic[d] && home[d] == 0) sides |= 1U << (2 * d);
+      if (!parts_.periodic[d] && home[d] == parts_.cells[d]) sides |= 2U << (2 * d);
+      const bool last = colours_[d] == 3 && home[d] == parts_.cells[d] - 1;
+      colour += stride * (last ? 2U : static_cast<unsigned>(home[d] & 1));
+      stride *= colours_[d];
+    }
+    round_to_quantum(mesh_, p);
+    mesh_.node_id.push_back(id(index, 1));
+    if (any_periodic_) {
+      mesh_.node_home.push_back(id(home, 1));
+      mesh_.node_image.push_back(image);
+    }
+    const auto node = static_cast<LocalId>(mesh_.position.size());
+    mesh_.position.push_back(position_of_ghost(mesh_, node, p));
+    // Owner of the cell with the smallest id around the node; the domain begins at its low sides.
+    for (std::int64_t& i : home) i = std::max<std::int64_t>(i - 1, 0);
+    mesh_.node_owner.push_back(owner(home, image));
+    mesh_.box_sides.push_back(static_cast<std::uint8_t>(sides));
+    mesh_.colour.push_back(static_cast<std::uint8_t>(colour));
+  }
+
+  void add_cell(const Index3& index, const IndexBox& box, const IndexBox& owned) {
+    const std::int64_t sy = box.extent(0) + 1, sz = sy * (box.extent(1) + 1);
+    const std::int64_t first =
+        (index[0] - box.lo[0]) + sy * (index[1] - box.lo[1]) + sz * (index[2] - box.lo[2]);
+    Hex hex;
+    for (std::size_t v = 0; v < 8; ++v)
+      hex[v] = static_cast<LocalId>(first + kCornerOffset[v][0] + sy * kCornerOffset[v][1] +
+                                    sz * kCornerOffset[v][2]);
+    std::int64_t layer = 0;
+    for (std::size_t d = 0; d < 3; ++d)
+      layer = std::max({layer, owned.lo[d] - index[d], index[d] - owned.hi[d] + 1});
+    Index3 home = index;
+    const Image image = unwrap(home);
+    mesh_.hexes.push_back(hex);
+    mesh_.hex_id.push_back(id(index, 0));
+    if (any_periodic_) {
+      mesh_.hex_home.push_back(id(home, 0));
+      mesh_.hex_image.push_back(image);
+    }
+    mesh_.hex_owner.push_back(owner(home, image));
+    mesh_.layer.push_back(static_cast<std::uint8_t>(layer));
+  }
+
+  HexMesh& mesh_;
+  const Grid& grid_;
+  const CartesianParts& parts_;
+  int ranks_;
+  Index3 ids_;             // cells per axis of the numbering
+  Index3 shift_{0, 0, 0};  // of indices in the numbering
+  bool any_periodic_ = false;
+  std::array<unsigned, 3> colours_{2, 2, 2};  // per axis
+};
 
 }  // namespace
+
+void set_period(HexMesh& mesh, const Grid& grid, const std::array<bool, 3>& periodic, int layers) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!periodic[d]) continue;
+    const double lo = grid.planes[d].front(), hi = grid.planes[d].back(),
+                 beyond = (layers + 1) * mesh.cell_size[d];
+    mesh.period[d] = hi - lo;
+    mesh.quantum[d] =
+        std::max({spacing(hi - lo), spacing(std::fabs(lo) + beyond), spacing(std::fabs(hi) + beyond)});
+  }
+}
 
 IndexBox CartesianParts::owned(int rank) const {
   if (rank >= segments[0] * segments[1] * segments[2]) return {};
@@ -125,8 +199,11 @@ IndexBox CartesianParts::ghosted(int rank, int layers) const {
   for (std::size_t d = 0; d < 3; ++d) {
     box.lo[d] -= layers;
     box.hi[d] += layers;
+    if (periodic[d]) continue;
+    box.lo[d] = std::max<std::int64_t>(box.lo[d], 0);
+    box.hi[d] = std::min(box.hi[d], cells[d]);
   }
-  return intersection(box, whole(cells));
+  return box;
 }
 
 int CartesianParts::owner(const Index3& cell) const {
@@ -154,23 +231,31 @@ CartesianParts cut_grid(const Index3& cells, int ranks, const Index3& user) {
   return parts;
 }
 
+Index3 numbered_grid(const CartesianParts& parts, int layers) {
+  Index3 cells = parts.cells;
+  for (std::size_t d = 0; d < 3; ++d)
+    if (parts.periodic[d]) cells[d] += 2 * layers;
+  return cells;
+}
+
 HexMesh lattice_mesh(const Comm& comm, const Grid& grid, const CartesianParts& parts, int layers) {
   HexMesh mesh;
   mesh.cell_size = grid.cell_size();
-  mesh.colours = 8;
   mesh.ghost_layers = layers;
   collectively(comm, "building the overlay grid", [&] {
+    for (std::size_t d = 0; d < 3; ++d)
+      check(!parts.periodic[d] || parts.cells[d] > 1, "a periodic axis with fewer than two cells");
+    LatticeMaker maker(mesh, grid, parts, layers, comm.size());
     const IndexBox box = parts.ghosted(comm.rank(), layers);
     if (box.empty()) return;
     if (box.size() > std::numeric_limits<LocalId>::max() / 8)
       throw Error(fmt::format("{} cells on one rank: at most {} fit; use more ranks", box.size(),
                               std::numeric_limits<LocalId>::max() / 8));
     for (std::size_t d = 0; d < 3; ++d) mesh.lattice[d] = static_cast<LocalId>(box.extent(d));
-    add_nodes(mesh, grid, parts, box);
-    add_cells(mesh, grid, parts, box, parts.owned(comm.rank()));
+    maker.add_nodes(box);
+    maker.add_cells(box, parts.owned(comm.rank()));
   });
-  mesh.node_exchange = GhostExchange(comm, mesh.node_id, mesh.node_owner);
-  mesh.hex_exchange = GhostExchange(comm, mesh.hex_id, mesh.hex_owner);
+  connect_ranks(comm, mesh);
   return mesh;
 }
 

@@ -46,7 +46,7 @@ void CellChanges::collect() {
 // Whether no candidate around the cell is cheaper.
 bool CellChanges::wins(LocalId cell) {
   const auto key = [this](LocalId c) {
-    return std::tuple(claim_[at(c)], edits_.lot(c), edits_.mesh.hex_id[at(c)]);
+    return std::tuple(claim_[at(c)], edits_.lot(c), edits_.mesh.hex_homes()[at(c)]);
   };
   for (const LocalId other : around(cell))
     if (other != cell && claim_[at(other)] <= claim_[at(cell)] && key(other) < key(cell)) return false;

@@ -82,6 +82,19 @@ bool Collapses::manifold_around(LocalId cell) const {
   return true;
 }
 
+// The cell and those of its images that alone_around() looks at: two cells away, where a periodic axis has no
+// more.
+std::vector<LocalId> Collapses::instances_within_reach(LocalId cell) const {
+  const std::span<const GlobalId> home = edits_.mesh.hex_homes();
+  std::vector<LocalId> instances{cell};
+  for (std::size_t f = 0; f < 6; ++f) {
+    const LocalId next = edits_.neighbours[at(cell)][f];
+    const LocalId second = next == kNone ? kNone : edits_.neighbours[at(next)][f];
+    if (second != kNone && home[at(second)] == home[at(cell)]) instances.push_back(second);
+  }
+  return instances;
+}
+
 // The material around a cell with a lone face that leaves fewest of them: interfaces may not grow, the cell
 // may not become a protrusion, and the nodes must stay manifold.
 std::int32_t Collapses::better(LocalId cell) const {
@@ -96,7 +109,10 @@ std::int32_t Collapses::better(LocalId cell) const {
     return std::pair(like, unlike);
   };
   const int like = faces_towards(own).first, before = alone_around(cell);
-  std::int32_t& material = edits_.mesh.material[at(cell)];
+  const std::vector<LocalId> instances = instances_within_reach(cell);
+  const auto try_material = [&](std::int32_t m) {
+    for (const LocalId c : instances) edits_.mesh.material[at(c)] = m;
+  };
   std::tuple<int, double, std::int32_t> best{before, 0, kNone};
   for (const LocalId n : edits_.neighbours[at(cell)]) {
     if (n == kNone || edits_.material(n) == own) continue;
@@ -104,10 +120,10 @@ std::int32_t Collapses::better(LocalId cell) const {
     const auto [with, against] = faces_towards(m);
     if (with < like || against > kMostForeignFaces) continue;
     const double loss = edits_.loss(cell, m);
-    material = m;
+    try_material(m);
     const int after = alone_around(cell);
     const bool good = after < before && manifold_around(cell);
-    material = own;
+    try_material(own);
     const std::tuple<int, double, std::int32_t> candidate{after, loss, m};
     if (good && (std::get<2>(best) == kNone || candidate < best)) best = candidate;
   }

@@ -91,10 +91,12 @@ void Edits::lock_materials(std::int64_t materials) {
     const auto found = std::lower_bound(mesh.hex_id.begin(), mesh.hex_id.end(), a.cell);
     if (a.material < 0 || found == mesh.hex_id.end() || *found != a.cell) continue;
     const auto c = static_cast<LocalId>(found - mesh.hex_id.begin());
-    if (locked_[at(c)]) continue;
+    if (!owned(c) || locked_[at(c)]) continue;
     locked_[at(c)] = 1;
-    if (material(c) != a.material) change(c, a.material);
+    if (material(c) != a.material) change_owned(c, a.material);
   }
+  mesh.hex_exchange.copy_to_ghosts(locked_);
+  share();
 }
 
 Pieces pieces(const Edits& edits, std::int64_t most) {
@@ -111,12 +113,13 @@ Pieces pieces(const Edits& edits, std::int64_t most) {
       alone = false;
     }
   }
-  Components components = connected_components(edits.comm(), std::move(sets), mesh.hex_id, mesh.hex_exchange);
+  Components components =
+      connected_components(edits.comm(), std::move(sets), mesh.hex_homes(), mesh.hex_exchange);
   Pieces p{std::move(components.of), std::move(components.label), {}, {}};
   p.size.assign(p.label.size(), 0);
   p.shared.assign(p.label.size(), 0);
   for (LocalId c = 0; c < mesh.size(); ++c) p.size[at(p.of[at(c)])] += edits.owned(c);
-  if (edits.comm().size() == 1) return p;
+  if (edits.comm().size() == 1 && mesh.hex_exchange.sends().empty()) return p;
   for (const auto* links : {&mesh.hex_exchange.sends(), &mesh.hex_exchange.receives()})
     for (const GhostExchange::Link& link : *links)
       for (const LocalId c : link.items) p.shared[at(p.of[at(c)])] = 1;

@@ -43,7 +43,7 @@ class Edits {
   // - 1 (the report, section 2.7.1: changes must stick).
   [[nodiscard]] double loss(LocalId cell, std::int32_t to) const;
   // Ties between cells are broken by this, then by id.
-  [[nodiscard]] std::uint64_t lot(LocalId cell) const { return lot_of(mesh.hex_id[at(cell)]); }
+  [[nodiscard]] std::uint64_t lot(LocalId cell) const { return lot_of(mesh.hex_homes()[at(cell)]); }
 
   // Price of taking a cell from a rare material: 1 / its cells in the input of the filter (0 for one that had
   // none).
@@ -170,6 +170,7 @@ class Collapses : public CellChanges {
   [[nodiscard]] int alone_beyond(HexFace face, LocalId a, LocalId b, bool& closed) const;
   [[nodiscard]] int alone_around(LocalId cell) const;
   [[nodiscard]] bool manifold_around(LocalId cell) const;
+  [[nodiscard]] std::vector<LocalId> instances_within_reach(LocalId cell) const;
 };
 
 }  // namespace sculpt

@@ -333,12 +333,14 @@ class ManifoldRepair::Work {
                                      [&](LocalId ghost) { claimed_ghosts_.push_back(ghost); });
   }
 
-  // A proposal wins when no other one that shares a cell with it is cheaper (ties: smaller node id).
+  // A proposal wins when no other one that shares a cell with it is cheaper (ties: smaller node id). A node's
+  // own images claim what it claims itself.
   bool wins(LocalId node) const {
+    const std::span<const GlobalId> home = mesh_.node_homes();
     for (const std::int32_t item : around_[node])
       for (const LocalId other : mesh_.hexes[at(item / 8)])
-        if (other != node &&
-            (claim_[at(other)] < claim_[at(node)] || (claim_[at(other)] == claim_[at(node)] && other < node)))
+        if (claim_[at(other)] < claim_[at(node)] ||
+            (claim_[at(other)] == claim_[at(node)] && home[at(other)] < home[at(node)]))
           return false;
     return true;
   }
@@ -370,7 +372,7 @@ class ManifoldRepair::Work {
           if (!won[at(n)]) return;
           G::append(bytes, static_cast<std::int32_t>(proposals_.at(n).flips.size()));
           for (const Flip& f : proposals_.at(n).flips) {
-            G::append(bytes, mesh_.hex_id[at(around_[n][static_cast<std::size_t>(f.slot)] / 8)]);
+            G::append(bytes, mesh_.hex_homes()[at(around_[n][static_cast<std::size_t>(f.slot)] / 8)]);
             G::append(bytes, f.to);
           }
         },
@@ -383,7 +385,7 @@ class ManifoldRepair::Work {
             G::take(from, cell);
             G::take(from, to);
             for (const std::int32_t item : around_[ghost])
-              if (mesh_.hex_id[at(item / 8)] == cell) edits_.change(item / 8, to);
+              if (mesh_.hex_homes()[at(item / 8)] == cell) edits_.change(item / 8, to);
           }
           return from;
         });

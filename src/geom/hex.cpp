@@ -93,7 +93,9 @@ double hex_volume(const HexCorners& p) {
   return volume / 8;
 }
 
-bool is_positive_inside(const HexCorners& p, int depth) {
+bool is_positive_inside(const HexCorners& at, int depth) {
+  HexCorners p = at;  // relative to a corner, so that a translation without rounding changes nothing
+  for (Vec3& corner : p) corner = corner - at[0];
   Coefficients c;
   for (std::size_t i = 0; i < 27; ++i)
     c[i] = jacobian(p, 0.5 * static_cast<double>(i % 3), 0.5 * static_cast<double>(i / 3 % 3),

@@ -4,24 +4,17 @@
 
 namespace sculpt {
 
-std::uint8_t face_sides(const HexMesh& mesh, LocalId hex, int face) {
-  std::uint8_t sides = 0xff;
-  for (const int c : kFaces[static_cast<std::size_t>(face)])
-    sides &= mesh.box_sides[static_cast<std::size_t>(
-        mesh.hexes[static_cast<std::size_t>(hex)][static_cast<std::size_t>(c)])];
-  return sides;
-}
-
 NodeHexes::NodeHexes(const HexMesh& mesh)
-    : offset_(mesh.position.size() + 1, 0), items_(mesh.hexes.size() * 8) {
+    : offset_(mesh.position.size() + 2, 0), items_(mesh.hexes.size() * 8) {
+  // One place further on while they are counted: then the offset after a node is where its next item goes.
   for (const Hex& hex : mesh.hexes)
-    for (const LocalId n : hex) ++offset_[static_cast<std::size_t>(n) + 1];
+    for (const LocalId n : hex) ++offset_[at(n) + 2];
   for (std::size_t n = 1; n < offset_.size(); ++n) offset_[n] += offset_[n - 1];
-  std::vector<std::int64_t> at(offset_.begin(), offset_.end() - 1);
   for (std::size_t h = 0; h < mesh.hexes.size(); ++h)
     for (std::size_t c = 0; c < 8; ++c)
-      items_[static_cast<std::size_t>(at[static_cast<std::size_t>(mesh.hexes[h][c])]++)] =
+      items_[static_cast<std::size_t>(offset_[at(mesh.hexes[h][c]) + 1]++)] =
           static_cast<std::int32_t>(8 * h + c);
+  offset_.pop_back();
 }
 
 std::size_t NodeHexes::largest() const {

@@ -10,22 +10,28 @@
 namespace sculpt {
 namespace {
 
-// Jones and Plassmann (1993): a node takes its colour once all nodes of its hexes that come before it, by the
-// lots of their ids, have theirs.
+// Few enough that the nodes of one turn, which are visited in the order of memory, lie close; so many that
+// few of them share a hex and wait for each other.
+constexpr std::uint64_t kTurns = 64;
+
+// Jones and Plassmann (1993): a node takes its colour once all nodes of its hexes that come before it, by
+// their turns, which the lots of their ids decide, and by their ids, have theirs.
 class Colouring {
  public:
   Colouring(HexMesh& mesh, std::span<const std::uint8_t> preset)
       : mesh_(mesh), comm_(mesh.node_exchange.comm()), news_(mesh.position.size(), 0) {
     collectively(comm_, "colouring nodes", [&] {
-      check(preset.size() == mesh.position.size() &&
-                std::all_of(preset.begin(), preset.end(),
-                            [](std::uint8_t c) { return c < kFirstFreeColour || c == kNoColour; }),
-            "preset colours are below 8");
+      check(preset.size() == mesh.position.size(), "one preset colour per node");
     });
-    mesh.colour.assign(preset.begin(), preset.end());
-    for (LocalId n = 0; n < mesh.nodes(); ++n)
-      if (mesh.colour[at(n)] == kNoColour && mesh.node_owner[at(n)] == comm_.rank()) waiting_.push_back(n);
-    std::sort(waiting_.begin(), waiting_.end(), [this](LocalId a, LocalId b) { return before(a, b); });
+    if (preset.data() != mesh.colour.data()) mesh.colour.assign(preset.begin(), preset.end());
+    turn_.assign(mesh.position.size(), 0);
+    for (LocalId n = 0; n < mesh.nodes(); ++n) {
+      if (mesh.colour[at(n)] != kNoColour) continue;
+      turn_[at(n)] = static_cast<std::uint8_t>(lot_of(mesh.node_homes()[at(n)]) % kTurns);
+      if (mesh.node_owner[at(n)] == comm_.rank()) waiting_.push_back(n);
+    }
+    std::stable_sort(waiting_.begin(), waiting_.end(),
+                     [this](LocalId a, LocalId b) { return turn_[at(a)] < turn_[at(b)]; });
     find_hexes();
   }
 
@@ -44,7 +50,7 @@ class Colouring {
 
  private:
   [[nodiscard]] bool before(LocalId a, LocalId b) const {
-    return std::pair(lot_of(mesh_.node_id[at(a)]), a) < std::pair(lot_of(mesh_.node_id[at(b)]), b);
+    return std::pair(turn_[at(a)], a) < std::pair(turn_[at(b)], b);
   }
 
   // The hexes around the waiting nodes.
@@ -64,7 +70,7 @@ class Colouring {
     visit([&](std::size_t i, LocalId h) { around_[static_cast<std::size_t>(next[i]++)] = h; });
   }
 
-  // In the order of the lots, so that chains within a rank take one round.
+  // In the order of the turns, so that chains within a rank take one round.
   void colour_ready() {
     std::erase_if(waiting_, [this](LocalId n) {
       std::bitset<kNoColour> taken;
@@ -88,8 +94,9 @@ class Colouring {
 
   HexMesh& mesh_;
   const Comm& comm_;
+  std::vector<std::uint8_t> turn_;   // per node without a preset colour
   std::vector<std::uint8_t> news_;   // per node: coloured in this round
-  std::vector<LocalId> waiting_;     // owned nodes without a colour, by their lots
+  std::vector<LocalId> waiting_;     // owned nodes without a colour, in the order of their turns
   std::vector<LocalId> place_;       // per node: its first place among the waiting ones, kNone for others
   std::vector<std::int64_t> first_;  // per place: its hexes in around_
   std::vector<LocalId> around_;

@@ -21,6 +21,10 @@ std::vector<LocalId> drop_unused_nodes(HexMesh& mesh) {
   compact(mesh.box_sides, node);
   compact(mesh.colour, node);
   if (!mesh.level.empty()) compact(mesh.level, node);
+  if (!mesh.node_home.empty()) {
+    compact(mesh.node_home, node);
+    compact(mesh.node_image, node);
+  }
   for (Hex& h : mesh.hexes)
     for (LocalId& n : h) n = node[at(n)];
   return node;
@@ -30,20 +34,27 @@ void transform(HexMesh& mesh, const Vec3& scale, const Vec3& translate) {
   for (Vec3& p : mesh.position)
     for (std::size_t d = 0; d < 3; ++d) p[d] = scale[d] * p[d] + translate[d];
   mesh.cell_size = scaled(mesh.cell_size, scale);
+  mesh.period = scaled(mesh.period, scale);
+  mesh.quantum = {0, 0, 0};
+  share_positions(mesh);
 }
 
-std::vector<LocalId> remove_hexes(const Comm& comm, HexMesh& mesh, std::span<const std::uint8_t> remove) {
+std::vector<LocalId> remove_hexes(const Comm& comm, HexMesh& mesh, std::vector<std::uint8_t> remove) {
+  mesh.hex_exchange.copy_to_ghosts(remove);
   std::vector<LocalId> hex = indices_without(remove);
   compact(mesh.hexes, hex);
   compact(mesh.hex_id, hex);
   compact(mesh.hex_owner, hex);
   compact(mesh.layer, hex);
   compact(mesh.material, hex);
+  if (!mesh.hex_home.empty()) {
+    compact(mesh.hex_home, hex);
+    compact(mesh.hex_image, hex);
+  }
   mesh.lattice = {0, 0, 0};
   // An owner sees all hexes around its nodes, so that it keeps every node that another rank keeps.
   drop_unused_nodes(mesh);
-  mesh.node_exchange = GhostExchange(comm, mesh.node_id, mesh.node_owner);
-  mesh.hex_exchange = GhostExchange(comm, mesh.hex_id, mesh.hex_owner);
+  connect_ranks(comm, mesh);
   return hex;
 }
 

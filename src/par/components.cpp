@@ -8,6 +8,18 @@
 namespace sculpt {
 namespace {
 
+// The smallest id of the local members of each component.
+std::vector<GlobalId> least_ids(const Components& components, std::span<const GlobalId> ids) {
+  std::vector<GlobalId> least;
+  least.reserve(components.first.size());
+  for (const LocalId first : components.first) least.push_back(ids[at(first)]);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    GlobalId& of = least[at(components.of[i])];
+    of = std::min(of, ids[i]);
+  }
+  return least;
+}
+
 // Lowers the label of every component to the least label of its members; whether any was lowered.
 bool take_least(const std::vector<GhostExchange::Link>& links, const std::vector<GlobalId>& value,
                 Components& components) {
@@ -52,9 +64,8 @@ Components connected_components(const Comm& comm, DisjointSets sets, std::span<c
                                 const GhostExchange& exchange) {
   Components out;
   out.of = std::move(sets).numbered(out.first);
-  out.label.reserve(out.first.size());
-  for (const LocalId first : out.first) out.label.push_back(ids[at(first)]);
-  if (comm.size() == 1) return out;
+  out.label = least_ids(out, ids);
+  if (comm.size() == 1 && exchange.sends().empty()) return out;
   std::vector<GlobalId> value(ids.size(), 0);  // used at shared entities only
   for (bool changed = true; changed;) {
     spread(exchange.sends(), out, value);
@@ -79,9 +90,9 @@ std::int64_t number_components(const Comm& comm, Components& components, std::sp
   };
   const auto named = [&](std::size_t c) { return Named{group.empty() ? 0 : group[c], components.label[c]}; };
   std::vector<Named> all;
+  const std::vector<GlobalId> least = least_ids(components, ids);
   for (std::size_t c = 0; c < components.label.size(); ++c)
-    if (ids[at(components.first[c])] == components.label[c])
-      all.push_back(named(c));  // others have it elsewhere
+    if (least[c] == components.label[c]) all.push_back(named(c));  // others have it elsewhere
   if (comm.size() > 1) all = comm.concatenate(all);
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());

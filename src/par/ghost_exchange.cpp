@@ -5,15 +5,16 @@
 namespace sculpt {
 
 GhostExchange::GhostExchange(const Comm& comm, std::span<const GlobalId> ids,
-                             std::span<const std::int32_t> owner)
+                             std::span<const std::int32_t> owner, std::span<const GlobalId> homes)
     : comm_(comm) {
   const auto ranks = static_cast<std::size_t>(comm.size());
   std::vector<std::vector<GlobalId>> wanted(ranks);
   std::vector<std::vector<LocalId>> ghosts(ranks);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (owner[i] == comm.rank()) continue;
-    wanted[static_cast<std::size_t>(owner[i])].push_back(ids[i]);
-    ghosts[static_cast<std::size_t>(owner[i])].push_back(static_cast<LocalId>(i));
+    const auto r = static_cast<std::size_t>(owner[i] % comm.size());
+    wanted[r].push_back(homes.empty() ? ids[i] : homes[i]);
+    ghosts[r].push_back(static_cast<LocalId>(i));
   }
   const auto asked = comm.all_to_all(wanted);
   bool known = true;
@@ -38,14 +39,23 @@ GhostExchange::GhostExchange(const Comm& comm, std::span<const GlobalId> ids,
 GhostExchange::Messages GhostExchange::swap(const std::vector<Link>& to, const Messages& out,
                                             const std::vector<Link>& from) const {
   constexpr int kTag = 72;
-  std::vector<MPI_Request> requests(to.size());
+  std::vector<MPI_Request> requests;
+  std::size_t own = to.size();  // the link with this rank itself
   for (std::size_t l = 0; l < to.size(); ++l) {
+    if (to[l].rank == comm_.rank()) {
+      own = l;
+      continue;
+    }
     check(out[l].size() <= static_cast<std::size_t>(INT_MAX), "ghost exchange: a message of more than 2 GB");
     MPI_Isend(out[l].data(), static_cast<int>(out[l].size()), MPI_CHAR, to[l].rank, kTag, comm_.handle(),
-              &requests[l]);
+              &requests.emplace_back());
   }
   Messages in(from.size());
   for (std::size_t l = 0; l < from.size(); ++l) {
+    if (from[l].rank == comm_.rank()) {
+      in[l] = out[own];
+      continue;
+    }
     MPI_Status status;
     int size = 0;
     MPI_Probe(from[l].rank, kTag, comm_.handle(), &status);

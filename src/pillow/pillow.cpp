@@ -52,8 +52,9 @@ class Pillower {
     result_.node_factor = node_factor_;
     out.ghost_layers = kept_layers_;
     out.cell_size = mesh_.cell_size;
-    out.node_exchange = GhostExchange(comm, out.node_id, out.node_owner);
-    out.hex_exchange = GhostExchange(comm, out.hex_id, out.hex_owner);
+    out.period = mesh_.period;
+    out.quantum = mesh_.quantum;
+    connect_ranks(comm, out);
     return std::move(result_);
   }
 
@@ -88,6 +89,10 @@ class Pillower {
     out.box_sides.push_back(sides);
     out.colour.push_back(mesh_.colour[at(from)]);
     if (!mesh_.level.empty()) out.level.push_back(mesh_.level[at(from)]);
+    if (!mesh_.node_home.empty()) {
+      out.node_home.push_back(node_factor_ * mesh_.node_home[at(from)] + copy);
+      out.node_image.push_back(mesh_.node_image[at(from)]);
+    }
     result_.source.push_back(from);
     result_.copied.push_back(copy != 0);
   }
@@ -297,6 +302,10 @@ class Pillower {
     out.hex_owner.push_back(mesh_.hex_owner[at(from)]);
     out.layer.push_back(mesh_.layer[at(from)]);
     out.material.push_back(mesh_.material[at(from)]);
+    if (!mesh_.hex_home.empty()) {
+      out.hex_home.push_back(kHexFactor * mesh_.hex_home[at(from)] + which);
+      out.hex_image.push_back(mesh_.hex_image[at(from)]);
+    }
   }
 
   void forget_unused_nodes() {

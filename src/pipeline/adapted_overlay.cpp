@@ -8,6 +8,7 @@
 
 #include "pipeline/console.hpp"
 #include "pipeline/layers.hpp"
+#include "pipeline/periodicity.hpp"
 #include "sculpt/adapt/criteria.hpp"
 #include "sculpt/adapt/leaf_fractions.hpp"
 #include "sculpt/adapt/leaf_mesh.hpp"
@@ -123,10 +124,11 @@ class Adapter {
         log_(log),
         stages_(stages),
         layers_(layer_plan(deck).ghost_layers()) {
-    periodic_ = {false, false, false};
+    periodic_ = periodic_axes(deck, grid_.cells);
   }
 
   Overlay refined() {
+    refuse_odd_periods();
     AdaptCriterion criterion = criterion_of();
     refuse_many_blocks();
     Forest forest(grid_.cells, levels_, periodic_);
@@ -135,6 +137,7 @@ class Adapter {
     print_decomposition(log_, cut);
     BlockParts parts = block_parts(cut, comm_.size());
     Material material = read(parts);
+    check_periods(parts.box[me()], material);
     stages_.end("read input");
     name_materials(criterion, material.table);
     collectively(comm_, "choosing the cells to refine", [&] {
@@ -151,33 +154,51 @@ class Adapter {
     }
     stages_.end("choose cells to refine");
     LeafMesh mesh = leaf_mesh(comm_, grid_, forest, parts, layers_);
+    tell(mesh);
     stages_.end("refine");
     return overlay(std::move(mesh), material);
   }
 
   // The coarse grid as it is, with averages of the data.
   Overlay resampled() {
-    const CartesianParts cut = cut_grid(grid_.cells, comm_.size(), {deck_.iproc, deck_.jproc, deck_.kproc});
+    CartesianParts cut = cut_grid(grid_.cells, comm_.size(), {deck_.iproc, deck_.jproc, deck_.kproc});
+    cut.periodic = periodic_;
     print_decomposition(log_, cut);
     std::vector<IndexBox> wanted;
     for (int r = 0; r < comm_.size(); ++r)
-      wanted.push_back(wanted_of(grid_, source_.grid(), cut.ghosted(r, layers_), 0, periodic_));
+      wanted.push_back(wanted_of(grid_, source_.grid(), cut.owned(r), 0, periodic_));
     Material material = read(wanted);
     stages_.end("read input");
     Overlay out = start(lattice_mesh(comm_, grid_, cut, layers_), material);
+    out.numbered = numbered_grid(cut, layers_);
+    Fractions owned;
     collectively(comm_, "resampling", [&] {
       for (LocalId c = 0; c < out.cells.size(); ++c) {
         const Hex& hex = out.cells.hexes[at(c)];
-        material.field->measure({out.cells.position[at(hex[0])], out.cells.position[at(hex[6])]},
-                                out.fractions);
+        if (out.cells.layer[at(c)] == 0)
+          material.field->measure({out.cells.position[at(hex[0])], out.cells.position[at(hex[6])]}, owned);
       }
     });
+    out.fractions = with_ghosts(out.cells, owned);
     stages_.end("distribute");
     return out;
   }
 
  private:
   [[nodiscard]] std::size_t me() const { return static_cast<std::size_t>(comm_.rank()); }
+
+  // Cells are refined in pairs, which must meet across the ends.
+  void refuse_odd_periods() const {
+    for (std::size_t d = 0; d < 3; ++d)
+      if (periodic_[d] && grid_.cells[d] % 2 != 0)
+        throw Error(fmt::format("periodic: a refined grid needs an even number of cells along {}, found {}{}",
+                                "xyz"[d], grid_.cells[d], coarsens(deck_) ? " coarse ones" : ""));
+  }
+  void check_periods(const IndexBox& blocks, const Material& material) const {
+    if (deck_.periodic && deck_.check_periodic && !source_.is_data())
+      check_period(comm_, deck_, grid_, periodic_, cells_of(blocks, grid_.cells), *material.field,
+                   material.table, log_);
+  }
 
   AdaptCriterion criterion_of() {
     AdaptCriterion c;
@@ -286,6 +307,27 @@ class Adapter {
     log_.line(
         "adapting the grid: {} blocks of 2 x 2 x 2 cells to be refined, {} more so that the mesh conforms",
         asked, all - asked);
+    if (deck_.adapt_memory_stats)
+      log_.line("  memory before refinement: at most {:.1f} MB per rank, {:.1f} MB of it for the levels",
+                static_cast<double>(comm_.max(peak_kib())) / 1024,
+                static_cast<double>(8 * forest.words().size()) / 1048576);
+  }
+
+  // Hexes of each level; transitions count as the coarser one.
+  void tell(const LeafMesh& mesh) const {
+    std::vector<std::int64_t> plain(static_cast<std::size_t>(levels_) + 1, 0), transition(plain);
+    for (const Leaf& leaf : mesh.leaves)
+      (leaf.transition ? transition : plain)[static_cast<std::size_t>(leaf.level)] += leaf.end - leaf.first;
+    comm_.sum(plain);
+    comm_.sum(transition);
+    for (std::size_t l = 0; l < plain.size(); ++l)
+      log_.line(
+          "  level {}: {} cubes{}", l, plain[l],
+          transition[l] > 0 ? fmt::format(", {} hexes in transition to level {}", transition[l], l + 1) : "");
+    if (deck_.adapt_memory_stats)
+      log_.line("  memory after refinement: at most {:.1f} MB per rank, {:.1f} MB in all",
+                static_cast<double>(comm_.max(peak_kib())) / 1024,
+                static_cast<double>(comm_.sum(peak_kib())) / 1024);
   }
 
   BlockParts rebalanced(const Forest& forest) const {
@@ -301,7 +343,7 @@ class Adapter {
     Overlay out;
     out.cells = std::move(cells);
     out.materials = std::move(material.table);
-    out.grid = grid_.cells;
+    out.grid = out.numbered = grid_.cells;
     out.pure = material.pure;
     out.exact = source_.exact_surface();
     return out;

@@ -79,7 +79,7 @@ void print_mesh_summary(const Comm& comm, const Log& log, const Deck& deck, cons
   log.line("  Num Nodes             {}", written.nodes);
   log.line("  Num Elements          {}", written.hexes);
   log.line("  Num Blocks            {}", written.blocks);
-  log.line("  Num Nodesets          0");
+  log.line("  Num Nodesets          {}", written.node_sets);
   log.line("  Num Sidesets          {}", written.side_sets);
   log.line("  Num Bad Qual (SJ<0)   {}", quality.not_positive);
   log.line("  Num Poor Qual (SJ<0.2) {}", quality.below_02);

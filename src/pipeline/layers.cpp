@@ -86,7 +86,7 @@ LayeredMesh add_layers(const Comm& comm, HexMesh cells, FaceNeighbours neighbour
   }
   if (plan.boundary_layers > 0)
     add_boundary_layers(comm, layered, neighbours, plan.boundary_layers, kAllSides);
-  layered.mesh.node_exchange.copy_to_ghosts(layered.mesh.position);
+  share_positions(layered.mesh);
   return layered;
 }
 
@@ -111,7 +111,7 @@ void add_curve_layers(const Comm& comm, LayeredMesh& layered, const LayerPlan& p
   LayeredMesh wrapped{
       {}, followed(layered.geometry, next), layered.pillows + 1, layered.node_factor * next.node_factor};
   wrapped.mesh = std::move(next.mesh);
-  wrapped.mesh.node_exchange.copy_to_ghosts(wrapped.mesh.position);
+  share_positions(wrapped.mesh);
   log.line("pillow_curves: {} hexes at curves are below {:f}; a layer of {} hexes is put around {}", set.poor,
            plan.curve_threshold, owned_hexes(comm, wrapped.mesh) - before, set.wrapped);
   if (smooth) {

@@ -4,6 +4,7 @@
 #include "pipeline/console.hpp"
 #include "pipeline/idle_options.hpp"
 #include "pipeline/layers.hpp"
+#include "pipeline/periodicity.hpp"
 #include "sculpt/distribute/cartesian.hpp"
 #include "sculpt/vfrac/fractions.hpp"
 
@@ -26,14 +27,21 @@ Grid overlay_grid(const Deck& deck, const Grid& source) {
 // The cells of the grid as they are.
 Overlay read_uniform(const Comm& comm, const Deck& deck, MaterialSource& source, const Grid& grid,
                      const Log& log, Stages& stages) {
-  const CartesianParts parts = cut_grid(grid.cells, comm.size(), {deck.iproc, deck.jproc, deck.kproc});
+  CartesianParts parts = cut_grid(grid.cells, comm.size(), {deck.iproc, deck.jproc, deck.kproc});
+  parts.periodic = periodic_axes(deck, grid.cells);
   print_decomposition(log, parts);
   const int layers = layer_plan(deck).ghost_layers();
 
+  // The ghosts of a periodic grid are no box of the source: their fractions come from their owners.
   std::vector<IndexBox> wanted;
   for (int r = 0; r < comm.size(); ++r)
-    wanted.push_back(source_of(parts.ghosted(r, layers), deck.micro_expand, source.grid().cells));
+    wanted.push_back(deck.periodic
+                         ? parts.owned(r)
+                         : source_of(parts.ghosted(r, layers), deck.micro_expand, source.grid().cells));
   MaterialData data = source.read(comm, wanted);
+  if (deck.periodic && deck.check_periodic && !source.is_data())
+    check_period(comm, deck, grid, parts.periodic, parts.owned(comm.rank()),
+                 *source.field({}, parts.owned(comm.rank())), data.table, log);
   stages.end("read input");
 
   Overlay overlay{lattice_mesh(comm, grid, parts, layers),
@@ -42,8 +50,10 @@ Overlay read_uniform(const Comm& comm, const Deck& deck, MaterialSource& source,
                   {},
                   {},
                   grid.cells,
+                  numbered_grid(parts, layers),
                   true,
                   source.exact_surface()};
+  if (deck.periodic) overlay.fractions = with_ghosts(overlay.cells, overlay.fractions);
   const bool pure = overlay.fractions.material.size() == static_cast<std::size_t>(overlay.fractions.cells());
   overlay.pure = comm.min(std::int64_t{pure}) == 1;
   if (deck.micro_expand > 0)

@@ -19,9 +19,10 @@ struct Overlay {
   MaterialTable materials;
   FaceNeighbours neighbours;
   std::optional<NodeHexes> around;
-  Index3 grid{0, 0, 0};  // cells per axis, all ranks
-  bool pure = true;      // on all ranks every cell of the input holds one material only
-  ExactSurface exact;    // what the input knows of its surfaces
+  Index3 grid{0, 0, 0};      // cells per axis, all ranks
+  Index3 numbered{0, 0, 0};  // of a lattice: those of the grid that gives the cells their ids
+  bool pure = true;          // on all ranks every cell of the input holds one material only
+  ExactSurface exact;        // what the input knows of its surfaces
 };
 
 // Collective. Opens and reads the input of the deck. Adjacency is left for later.

@@ -14,6 +14,7 @@
 #include "pipeline/interface_geometry.hpp"
 #include "pipeline/layers.hpp"
 #include "pipeline/overlay.hpp"
+#include "pipeline/periodicity.hpp"
 #include "sculpt/base/fixed_point.hpp"
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/interfaces.hpp"
@@ -140,7 +141,7 @@ SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& ov
            brep.vertices);
   const bool is_lattice = overlay.cells.lattice[0] != 0;
   return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop,
-                        is_lattice ? overlay.grid : Index3{0, 0, 0}, deck.gen_sidesets);
+                        is_lattice ? overlay.numbered : Index3{0, 0, 0}, deck.gen_sidesets);
 }
 
 // Smoothing moves volumes a little; materials that were thickened to a volume get the rest of it here.
@@ -301,15 +302,38 @@ int judge(const Deck& deck, const QualitySummary& quality, const Log& log) {
   return kPoorMeshStatus;
 }
 
+Vec3 scale_of(const Deck& deck) {
+  return {deck.scale * deck.xscale, deck.scale * deck.yscale, deck.scale * deck.zscale};
+}
+
 WriteOptions write_options(const Deck& deck, const MaterialTable& materials, const HexMesh& mesh) {
   WriteOptions w;
   w.base = deck.exodus_file;
   w.large = deck.large_exodus;
   w.block_id = materials.block_id;
+  w.periodic_node_sets = periodic_node_sets(deck);
   for (const IdName& n : deck.material_name) w.block_names[n.id] = n.name;
   for (const IdName& n : deck.sideset_name) w.side_set_names[n.id] = n.name;
   if (deck.quality_variable) w.variables.push_back({"scaled_jacobian", scaled_jacobians(mesh)});
   return w;
+}
+
+std::string export_name(const Deck& deck) { return deck.exodus_file + "_adapt"; }
+bool exports_grid(const Deck& deck) { return deck.adapt_export && deck.adapt_type != kAdaptOff; }
+
+// The cells of the overlay with their materials as a mesh of its own (adapt_export). Transitions are
+// smoothed, so that it is a valid mesh.
+void write_grid(const Comm& comm, const Deck& deck, const Overlay& overlay, const Log& log, Stages& stages) {
+  HexMesh cells = overlay.cells;
+  Geometry none;
+  none.index.assign(cells.position.size(), kNone);
+  smooth_mesh(cells, none, {}, Log(false));
+  transform(cells, scale_of(deck), {deck.xtranslate, deck.ytranslate, deck.ztranslate});
+  WriteOptions options = write_options(deck, overlay.materials, cells);
+  options.base = export_name(deck);
+  const WriteSummary written = write_mesh(comm, cells, {}, options);
+  log.line("adapt_export: the grid, {} cells, is in {}", written.hexes, options.base);
+  stages.end("export grid");
 }
 
 void check_names(const Deck& deck) {
@@ -327,6 +351,7 @@ int run(const Comm& comm, const Deck& deck) {
   Stages stages;
   check_names(deck);
   check_output_folder(comm, deck.exodus_file);
+  if (exports_grid(deck)) check_output_folder(comm, export_name(deck));
   const std::string quality_file = quality_file_name(deck);
   if (!quality_file.empty()) check_output_file(comm, "quality", quality_file);
   Overlay overlay = read_overlay(comm, deck, log, stages);
@@ -339,6 +364,7 @@ int run(const Comm& comm, const Deck& deck) {
       comm, deck, overlay.cells, overlay.fractions, overlay.materials, overlay.neighbours, overlay.around,
       input_volume, [&] { return contoured_volumes(comm, deck, overlay); }, log, stages);
   const MaterialTable materials = overlay.materials;
+  if (exports_grid(deck)) write_grid(comm, deck, overlay, log, stages);
   input_volume.resize(materials.block_id.size(), 0);  // thicken_void may have added the void
   Meshed meshed = build_mesh(comm, deck, std::move(overlay), wanted_volumes, log, stages);
 
@@ -346,8 +372,7 @@ int run(const Comm& comm, const Deck& deck) {
   log.line("generating global ids...");
   HexMesh& mesh = meshed.mesh;
   const Displacement moved = displacement(comm, mesh, meshed.track);
-  transform(mesh, {deck.scale * deck.xscale, deck.scale * deck.yscale, deck.scale * deck.zscale},
-            {deck.xtranslate, deck.ytranslate, deck.ztranslate});
+  transform(mesh, scale_of(deck), {deck.xtranslate, deck.ytranslate, deck.ztranslate});
   std::vector<SideFace> faces = side_set_faces(deck, meshed, log);
   remove_bad_hexes(comm, deck, materials, mesh, faces, log);
   const QualityReport report = report_of(comm, deck, materials, mesh, input_volume, moved);

@@ -11,13 +11,13 @@ double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::ste
   return std::chrono::duration<double>(b - a).count();
 }
 
+}  // namespace
+
 std::int64_t peak_kib() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return usage.ru_maxrss;
 }
-
-}  // namespace
 
 Stages::Stages() : begin_(Clock::now()), last_(begin_) {}
 

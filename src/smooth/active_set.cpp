@@ -123,12 +123,14 @@ std::int64_t ActiveSet::sweep(const std::function<bool(LocalId)>& step, double f
       if (i + 2 < nodes.size()) fetch_ahead(nodes[i + 2], nodes[i + 1]);
       const Vec3 before = mesh_.position[at(n)];
       if (!step(n)) continue;
+      round_to_quantum(mesh_, mesh_.position[at(n)]);
       ++moves;
       moved_.push_back(n);
       changed_[at(n)] = 1;
-      far_moved_[at(n)] = is_far(n, mesh_.position[at(n)] - before, far);
+      const Vec3 move = mesh_.position[at(n)] - before;
+      far_moved_[at(n)] = dot(move, move) > far * far;
     }
-    exchange_moves(far, static_cast<int>(colour));
+    exchange_moves(far * far, static_cast<int>(colour));
   }
   std::fill(near_.begin(), near_.end(), std::uint8_t{0});
   std::vector<LocalId> far_nodes;
@@ -152,7 +154,7 @@ void ActiveSet::fetch_ahead(LocalId hexes_of, LocalId positions_of) const {
     for (const LocalId n : mesh_.hexes[at(item / 8)]) __builtin_prefetch(&mesh_.position[at(n)]);
 }
 
-void ActiveSet::exchange_moves(double far, int colour) {
+void ActiveSet::exchange_moves(double far_squared, int colour) {
   using G = GhostExchange;
   mesh_.node_exchange.send_records(
       [&](LocalId n, std::vector<char>& bytes) {
@@ -160,9 +162,12 @@ void ActiveSet::exchange_moves(double far, int colour) {
         G::append(bytes, mesh_.position[at(n)]);
       },
       [&](LocalId ghost, const char* from) {
-        const Vec3 before = mesh_.position[at(ghost)];
-        G::take(from, mesh_.position[at(ghost)]);
-        far_moved_[at(ghost)] = is_far(ghost, mesh_.position[at(ghost)] - before, far);
+        Vec3& p = mesh_.position[at(ghost)];
+        const Vec3 before = p;
+        G::take(from, p);
+        p = position_of_ghost(mesh_, ghost, p);
+        const Vec3 move = p - before;
+        far_moved_[at(ghost)] = dot(move, move) > far_squared;
         moved_.push_back(ghost);
         return from;
       });

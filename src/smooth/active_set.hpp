@@ -36,7 +36,7 @@ class ActiveSet {
 
   // Moves the chosen nodes: step(node) changes the position of one owned node and tells whether it did. Nodes
   // of one colour are visited in ascending order before the ghosts learn of their moves. far: the length of a
-  // move, at level 0, that the neighbours shall hear of (choose). Returns the moves on all ranks.
+  // move that the neighbours shall hear of (choose). Returns the moves on all ranks.
   std::int64_t sweep(const std::function<bool(LocalId)>& step, double far);
 
   struct Worst {
@@ -64,11 +64,7 @@ class ActiveSet {
   // ones.
   void spread(std::vector<std::uint8_t>& marks, std::vector<LocalId>& front);
   void fetch_ahead(LocalId hexes_of, LocalId positions_of) const;
-  void exchange_moves(double far, int colour);
-  [[nodiscard]] bool is_far(LocalId node, const Vec3& move, double far) const {
-    far *= mesh_.unit(node);
-    return dot(move, move) > far * far;
-  }
+  void exchange_moves(double far_squared, int colour);
   void refresh_dirty(LocalId first, LocalId last);
 
   HexMesh& mesh_;

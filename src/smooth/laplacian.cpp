@@ -52,7 +52,7 @@ void laplacian_passes(HexMesh& mesh, const NodeHexes& around, const Geometry& ge
     log.line("Laplacian Iter: {}", pass);
     for (std::size_t i = 0; i < nodes.size(); ++i) moves[i] = towards_neighbours(mesh, around, nodes[i]);
     for (std::size_t i = 0; i < nodes.size(); ++i) mesh.position[at(nodes[i])] += moves[i];
-    mesh.node_exchange.copy_to_ghosts(mesh.position);
+    share_positions(mesh);
   }
 }
 

@@ -203,7 +203,7 @@ class PublishedOptimisation {
           n, damping < 1 ? optimiser_.on_surface(n, here + damping * (p.position - here)) : p.position);
     }
     for (const auto& [n, p] : moves) mesh_.position[at(n)] = p;
-    mesh_.node_exchange.copy_to_ghosts(mesh_.position);
+    share_positions(mesh_);
     set_.refresh_all_quality();
     return set_.comm().sum(static_cast<std::int64_t>(moves.size()));
   }
@@ -242,18 +242,19 @@ class PublishedOptimisation {
     std::vector<Proposal> offers(proposals_.size());
     for (const LocalId n : candidates) offers[at(n)] = proposals_[at(n)];
     mesh_.node_exchange.copy_to_ghosts(offers);
+    const auto home = [&](LocalId n) { return mesh_.node_homes()[at(n)]; };
     const auto beats = [&](LocalId a, LocalId b) {
       const Proposal &x = offers[at(a)], &y = offers[at(b)];
       if (x.quality != y.quality) return x.quality < y.quality;
       if (x.better != y.better) return x.better > y.better;
-      return a < b;  // local order is that of global ids
+      return home(a) < home(b);
     };
     std::vector<LocalId> winners;
     for (const LocalId n : candidates) {
       bool wins = offers[at(n)].improves != 0;
       for (const std::int32_t item : set_.around()[n])
         for (const LocalId other : mesh_.hexes[at(item / 8)])
-          wins = wins && (other == n || !offers[at(other)].improves || beats(n, other));
+          wins = wins && (home(other) == home(n) || !offers[at(other)].improves || beats(n, other));
       if (wins) winners.push_back(n);
     }
     return winners;
@@ -265,10 +266,15 @@ class PublishedOptimisation {
     std::vector<LocalId> moved = winners;
     for (const LocalId n : winners) {
       mesh_.position[at(n)] = proposals_[at(n)].position;
+      round_to_quantum(mesh_, mesh_.position[at(n)]);
       changed[at(n)] = 1;
     }
     mesh_.node_exchange.copy_changed(std::span<Vec3>(mesh_.position), std::span<std::uint8_t>(changed),
-                                     [&](LocalId ghost) { moved.push_back(ghost); });
+                                     [&](LocalId ghost) {
+                                       Vec3& p = mesh_.position[at(ghost)];
+                                       p = position_of_ghost(mesh_, ghost, p);
+                                       moved.push_back(ghost);
+                                     });
     set_.refresh_quality_around(moved);
     for (const LocalId n : moved)
       for (const std::int32_t item : set_.around()[n])

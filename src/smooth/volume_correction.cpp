@@ -173,7 +173,7 @@ class Corrector {
       for (std::size_t d = 0; d < 3; ++d)
         if (way[d] != 0) mesh_.position[n][d] += way[d] * mesh_.cell_size[d];
     }
-    mesh_.node_exchange.copy_to_ghosts(mesh_.position);
+    share_positions(mesh_);
     take_back_harm(before);
   }
 
@@ -224,7 +224,7 @@ class Corrector {
       if (comm().sum(harmed) == 0) return;
       for (std::size_t n = 0; n < back.size(); ++n)
         if (back[n]) mesh_.position[n] = before[n];
-      mesh_.node_exchange.copy_to_ghosts(mesh_.position);
+      share_positions(mesh_);
     }
     mesh_.position = before;
   }

@@ -1,8 +1,8 @@
 #include "sculpt/write/side_sets.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <compare>
+#include <tuple>
 
 #include "sculpt/deck/deck.hpp"
 
@@ -78,7 +78,8 @@ class Planner {
     return cells_.layer[at(cell)] == 0 && !drop_[at(cell)];
   }
 
-  // set_of(quad, its index, whether it is exterior), for quads whose listed cell is owned.
+  // set_of(quad, its index, whether it is exterior), for quads whose listed cell is owned; but those between
+  // two meshed cells are no quads of the files where one of them is an image.
   template <class SetOf>
   void add_inner(SetOf&& set_of) {
     for (std::size_t i = 0; i < faces_.quads.size(); ++i) {
@@ -88,9 +89,11 @@ class Planner {
       const bool by_second =
           first_out || (!second_out && cells_.material[at(q.cell[1])] > cells_.material[at(q.cell[0])]);
       const LocalId cell = q.cell[by_second];
-      if (cells_.layer[at(cell)] != 0) continue;
-      plan_.inner.push_back({cells_.hex_id[at(cell)], by_second ? face_of_second(q) : q.face,
-                             set_of(q, i, first_out || second_out)});
+      const bool exterior = first_out || second_out;
+      const bool across_period = side_towards(cells_.image_of(q.cell[!by_second])) >= 0;
+      if (cells_.layer[at(cell)] != 0 || (across_period && !exterior)) continue;
+      plan_.inner.push_back(
+          {cells_.hex_id[at(cell)], by_second ? face_of_second(q) : q.face, set_of(q, i, exterior)});
     }
   }
   [[nodiscard]] int face_of_second(const InterfaceQuad& q) const {
@@ -103,8 +106,7 @@ class Planner {
     for (LocalId c = 0; c < cells_.size(); ++c) {
       if (!meshed_here(c)) continue;
       for (int f = 0; f < 6; ++f)
-        if (neighbours_[at(c)][static_cast<std::size_t>(f)] == kNone)
-          out.push_back({c, f, std::countr_zero(face_sides(cells_, c, f))});
+        if (const int side = side_of_box(cells_, neighbours_, c, f); side >= 0) out.push_back({c, f, side});
     }
     return out;
   }
@@ -163,9 +165,53 @@ int side_over(int g, int f) {
   return -1;
 }
 
+// A face of an owned hex on a side of the box (bit number of the BoxSide).
+struct FaceOnSide {
+  LocalId hex;
+  std::int32_t face, side;
+  auto operator<=>(const FaceOnSide&) const = default;
+};
+
+// The faces of owned hexes whose other side is an image, ascending: the periodic sides of the mesh. At edges
+// of the domain the other side may be a period away in two directions at once.
+std::vector<FaceOnSide> faces_towards_images(const HexMesh& mesh) {
+  std::vector<FaceOnSide> out;
+  std::vector<std::uint8_t> of_image(mesh.position.size(), 0);
+  for (LocalId h = 0; h < mesh.size(); ++h)
+    if (side_towards(mesh.image_of(h)) >= 0)
+      for (const LocalId n : mesh.hexes[at(h)]) of_image[at(n)] = 1;
+  struct Face {
+    std::array<LocalId, 4> nodes;
+    LocalId hex;
+    std::int32_t face, side;  // side -1: of an owned hex
+  };
+  std::vector<Face> faces;
+  for (LocalId h = 0; h < mesh.size(); ++h) {
+    const int side = side_towards(mesh.image_of(h));
+    for (std::size_t f = 0; f < 6 && (side >= 0 || mesh.layer[at(h)] == 0); ++f) {
+      Face face{{}, h, static_cast<std::int32_t>(f), side};
+      for (std::size_t v = 0; v < 4; ++v)
+        face.nodes[v] = mesh.hexes[at(h)][static_cast<std::size_t>(kFaces[f][v])];
+      if (std::any_of(face.nodes.begin(), face.nodes.end(), [&](LocalId n) { return !of_image[at(n)]; }))
+        continue;
+      std::sort(face.nodes.begin(), face.nodes.end());
+      faces.push_back(face);
+    }
+  }
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+    return std::tie(a.nodes, a.side) < std::tie(b.nodes, b.side);
+  });
+  for (std::size_t i = 0; i + 1 < faces.size(); ++i)
+    if (faces[i].nodes == faces[i + 1].nodes && faces[i].side < 0 && faces[i + 1].side >= 0)
+      out.push_back({faces[i].hex, faces[i].face, faces[i + 1].side});
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 class Finder {
  public:
-  Finder(const HexMesh& mesh, int stages) : mesh_(mesh), stages_(stages) {
+  Finder(const HexMesh& mesh, int stages)
+      : mesh_(mesh), stages_(stages), periodic_faces_(faces_towards_images(mesh)) {
     for (int s = 0; s < stages; ++s) family_ *= kHexFactor;
   }
 
@@ -192,7 +238,10 @@ class Finder {
     for (auto it = begin; it != mesh_.hex_id.end() && *it < family_ * (item.cell + 1); ++it)
       for (int f = 0; f < 6; ++f) {
         const auto hex = static_cast<LocalId>(it - mesh_.hex_id.begin());
-        if (face_sides(mesh_, hex, f) >> item.at & 1) out_.push_back({item.set, hex, f});
+        const bool on_side =
+            (face_sides(mesh_, hex, f) >> item.at & 1) != 0 ||
+            std::binary_search(periodic_faces_.begin(), periodic_faces_.end(), FaceOnSide{hex, f, item.at});
+        if (on_side) out_.push_back({item.set, hex, f});
       }
   }
 
@@ -221,6 +270,7 @@ class Finder {
 
   const HexMesh& mesh_;
   int stages_;
+  std::vector<FaceOnSide> periodic_faces_;
   GlobalId family_ = 1;  // ids per cell
   struct HexFace {
     GlobalId hex;

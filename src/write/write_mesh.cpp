@@ -33,6 +33,7 @@ class RankPart {
     number_hexes();
     find_shared_nodes();
     number_nodes();
+    add_node_sets();
     add_side_sets(side_faces);
     if (comm_.size() > 1) add_element_maps();
     add_variables();
@@ -69,6 +70,9 @@ class RankPart {
     counts_ = std::move(counts);
   }
 
+  // Images are no part of the files: the nodes on the two sides of a period are different ones there.
+  [[nodiscard]] bool is_image(LocalId h) const { return mesh_.image_of(h) != Image{0, 0, 0}; }
+
   // Owners of the hexes around each node that this rank's hexes use, other than this rank.
   void find_shared_nodes() {
     file_node_.assign(mesh_.position.size(), kNone);
@@ -77,7 +81,7 @@ class RankPart {
     if (comm_.size() == 1) return;
     std::vector<std::pair<LocalId, std::int32_t>> pairs;
     for (LocalId h = 0; h < mesh_.size(); ++h) {
-      if (mesh_.layer[at(h)] == 0) continue;
+      if (mesh_.layer[at(h)] == 0 || is_image(h)) continue;
       for (const LocalId n : mesh_.hexes[at(h)])
         if (file_node_[at(n)] != kNone) pairs.emplace_back(n, mesh_.hex_owner[at(h)]);
     }
@@ -141,6 +145,30 @@ class RankPart {
     }
   }
 
+  // A node is on a periodic side when hexes on both sides of it use the node.
+  void add_node_sets() {
+    for (std::size_t d = 0; d < 3; ++d)
+      for (const int side : {0, 1}) {
+        RankMesh::NodeSet set;
+        set.id = options_.periodic_node_sets[d][static_cast<std::size_t>(side)];
+        if (set.id == 0) continue;
+        Image beyond{0, 0, 0};
+        beyond[d] = side == 0 ? -1 : 1;
+        std::vector<std::uint8_t> on_side(mesh_.position.size(), 0);
+        for (LocalId h = 0; h < mesh_.size(); ++h)
+          if (mesh_.image_of(h) == beyond)
+            for (const LocalId n : mesh_.hexes[at(h)]) on_side[at(n)] = file_node_[at(n)] != kNone;
+        std::vector<GlobalId> keys;
+        for (LocalId n = 0; n < mesh_.nodes(); ++n) {
+          if (!on_side[at(n)]) continue;
+          keys.push_back(mesh_.node_id[at(n)]);
+          set.node.push_back(file_node_[at(n)]);
+        }
+        (void)dense_numbers(comm_, keys, set.global_count);
+        out_.node_sets.push_back(std::move(set));
+      }
+  }
+
   // Position of each local hex in the file, from 1.
   [[nodiscard]] std::vector<std::int32_t> places() const {
     std::vector<std::int32_t> place(mesh_.hexes.size(), 0);
@@ -190,7 +218,7 @@ class RankPart {
     std::vector<Face> faces;
     const std::vector<std::int32_t> place = places();
     for (LocalId h = 0; h < mesh_.size(); ++h)
-      for (std::size_t f = 0; f < 6; ++f) {
+      for (std::size_t f = 0; f < 6 && !is_image(h); ++f) {
         Face face{{}, place[at(h)], static_cast<std::int32_t>(f) + 1, mesh_.hex_owner[at(h)]};
         bool all_shared = true;
         for (std::size_t c = 0; c < 4; ++c) {
@@ -262,7 +290,8 @@ WriteSummary write_mesh(const Comm& comm, const HexMesh& mesh, const std::vector
     discard(temporary);
     throw;
   }
-  return {part.global_nodes, part.global_hexes, part.blocks.size(), part.side_sets.size()};
+  return {part.global_nodes, part.global_hexes, part.blocks.size(), part.node_sets.size(),
+          part.side_sets.size()};
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include "filter/ring.hpp"
 #include "grain_case.hpp"
 #include "sculpt/brep/brep.hpp"
+#include "sculpt/mesh/colour.hpp"
 #include "smooth/star.hpp"
 
 namespace sculpt {
@@ -145,6 +146,22 @@ void node_hexes(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * mesh.size());
 }
 BENCHMARK(node_hexes)->Arg(100)->Unit(benchmark::kMillisecond);
+
+// No node has a preset colour, every fourth, none lacks one.
+void colour_nodes_of_general_cells(benchmark::State& state) {
+  HexMesh mesh = general_cells(100);
+  std::vector<std::uint8_t> preset = mesh.colour;
+  for (std::size_t n = 0; n < preset.size(); ++n)
+    if (static_cast<std::int64_t>(n % 4) >= state.range(0)) preset[n] = kNoColour;
+  for (auto round : state) colour_nodes(mesh, preset);
+  state.SetItemsProcessed(state.iterations() * mesh.nodes());
+}
+BENCHMARK(colour_nodes_of_general_cells)
+    ->ArgName("preset_quarters")
+    ->Arg(0)
+    ->Arg(3)
+    ->Arg(4)
+    ->Unit(benchmark::kMillisecond);
 
 void volumes_of_general_cells(benchmark::State& state) {
   const HexMesh mesh = general_cells(static_cast<int>(state.range(0)));

@@ -41,6 +41,12 @@ double part_above(const Vec3& corner, Vec3 n, double distance) {
   return above < 1e-12 ? 0 : above > 1 - 1e-12 ? 1 : above;
 }
 
+Case periodic(Case input, const std::array<bool, 3>& axes) {
+  input.periodic = axes;
+  input.name = "periodic " + input.name;
+  return input;
+}
+
 Fractions fractions_in(const Case& input, const IndexBox& box) {
   Fractions f;
   for (std::int64_t p = 0; p < box.size(); ++p) {

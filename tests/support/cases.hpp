@@ -1,6 +1,7 @@
 #pragma once
 // Made-up inputs: a grid and, for every cell, fractions that depend on the cell's global indices and a seed
 // only, so that any rank can ask for any box.
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -21,7 +22,10 @@ struct Case {
   // is no lattice.
   std::function<std::uint8_t(const Index3&)> level{};
   Vec3 cell_size{};
+  std::array<bool, 3> periodic{false, false, false};    // axes
 };
+// The same input, periodic in some axes.
+[[nodiscard]] Case periodic(Case input, const std::array<bool, 3>& axes = {true, true, true});
 
 // Fractions of the cells of a box, x fastest.
 [[nodiscard]] Fractions fractions_in(const Case& input, const IndexBox& box);

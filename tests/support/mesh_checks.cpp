@@ -126,10 +126,10 @@ std::string box_problem(const HexMesh& mesh, const Grid& grid) {
 std::string ghost_problem(const HexMesh& mesh) {
   const Comm& comm = mesh.node_exchange.comm();
   std::string problem;
-  std::vector<Vec3> position = mesh.position;
-  mesh.node_exchange.copy_to_ghosts(position);
-  for (std::size_t n = 0; n < position.size(); ++n)
-    if (position[n] != mesh.position[n])
+  HexMesh shared = mesh;
+  share_positions(shared);
+  for (std::size_t n = 0; n < mesh.position.size(); ++n)
+    if (shared.position[n] != mesh.position[n])
       problem = fmt::format("rank {}: ghost node {} stands elsewhere", comm.rank(), mesh.node_id[n]);
   std::vector<std::int32_t> material = mesh.material;
   mesh.hex_exchange.copy_to_ghosts(material);
@@ -138,9 +138,15 @@ std::string ghost_problem(const HexMesh& mesh) {
   using IdHex = std::array<GlobalId, 8>;
   std::vector<IdHex> nodes(mesh.hexes.size());
   for (std::size_t h = 0; h < nodes.size(); ++h)
-    for (std::size_t c = 0; c < 8; ++c) nodes[h][c] = mesh.node_id[at(mesh.hexes[h][c])];
+    for (std::size_t c = 0; c < 8; ++c) nodes[h][c] = mesh.node_homes()[at(mesh.hexes[h][c])];
   const std::vector<IdHex> mine = nodes;
   mesh.hex_exchange.copy_to_ghosts(nodes);
+  std::vector<HexCorners> shape(mesh.hexes.size());
+  for (LocalId h = 0; h < mesh.size(); ++h)
+    for (std::size_t c = 0; c < 8; ++c) shape[at(h)][c] = mesh.corners(h)[c] - mesh.corners(h)[0];
+  const std::vector<HexCorners> my_shape = shape;
+  mesh.hex_exchange.copy_to_ghosts(shape);
+  if (shape != my_shape) problem = fmt::format("rank {}: a ghost hex has another shape", comm.rank());
   for (std::size_t h = 0; h < nodes.size(); ++h) {
     if (nodes[h] != mine[h])
       problem = fmt::format("rank {}: ghost hex {} of layer {} has other nodes", comm.rank(), mesh.hex_id[h],

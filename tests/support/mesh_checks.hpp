@@ -18,7 +18,8 @@ namespace sculpt::test {
 [[nodiscard]] std::string boundary_problem(const HexMesh& mesh);
 // Nodes of a box side stand on it to the last bit, nodes inside the box stand inside.
 [[nodiscard]] std::string box_problem(const HexMesh& mesh, const Grid& grid);
-// Collective: ghosts are equal to what their owners have, every ghost layer is as deep as promised.
+// Collective: ghosts are equal to what their owners have, every ghost layer is as deep as promised; images
+// are in addition their owners' hexes translated without rounding.
 [[nodiscard]] std::string ghost_problem(const HexMesh& mesh);
 
 [[nodiscard]] double volume(const Grid& grid);

@@ -14,9 +14,10 @@
 
 namespace sculpt::test {
 Overlay overlay(const Comm& comm, const Case& input, int layers) {
-  const CartesianParts parts = cut_grid(input.grid.cells, comm.size(), {0, 0, 0});
-  Overlay o{lattice_mesh(comm, input.grid, parts, layers),
-            fractions_in(input, parts.ghosted(comm.rank(), layers))};
+  CartesianParts parts = cut_grid(input.grid.cells, comm.size(), {0, 0, 0});
+  parts.periodic = input.periodic;
+  Overlay o{lattice_mesh(comm, input.grid, parts, layers), {}};
+  o.fractions = with_ghosts(o.cells, fractions_in(input, parts.owned(comm.rank())));
   if (input.level) {
     o.cells.lattice = {0, 0, 0};
     o.cells.cell_size = input.cell_size;

@@ -28,6 +28,15 @@ struct Brep {
 [[nodiscard]] Brep build_brep(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
                               const Interfaces& faces);
 
+// The bit number of the BoxSide between the domain and an image; where several are, that across the first
+// axis; -1 for what is no image.
+[[nodiscard]] int side_towards(const Image& image);
+
+// Local. The bit number of the BoxSide that a face of a cell lies on, which may also be one of a periodic
+// axis (there the neighbour is an image); -1 inside the box, for outer faces of the last ghost layer, and for
+// images.
+[[nodiscard]] int side_of_box(const HexMesh& cells, const FaceNeighbours& neighbours, LocalId cell, int face);
+
 // The faces of cells on the sides of the box, and the surfaces they form: those of one volume and one side of
 // the box that are connected through edges.
 struct BoxFaces {
@@ -36,7 +45,7 @@ struct BoxFaces {
     std::int32_t face;  // kFaces index
     std::int32_t side;  // bit number of the BoxSide
   };
-  std::vector<Face> faces;            // of owned and ghost cells, ascending in (cell, face)
+  std::vector<Face> faces;            // of owned and ghost cells but images, ascending in (cell, face)
   std::vector<std::int32_t> surface;  // per face; ascending in the smallest (cell id, face)
   std::int64_t surfaces = 0;          // on all ranks
 };

@@ -92,6 +92,16 @@ enum HtetMethod : int { kHtetStructured = 0, kHtetUnstructured = 1 };
 enum HtetTransition : int { kHtetNone = 0, kHtetPyramid = 1, kHtetTiedContact = 2 };
 enum InputMeshMaterial : int { kMeshMaterialAutomatic = 0, kMeshMaterialGeometryAndBlocks = 1 };
 enum PeriodicAxis : int { kAxisNone = 0, kAxisX = 1, kAxisY = 2, kAxisZ = 3 };
+// An option of ours, not Sculpt's: bit d stands for axis d.
+enum PeriodicDirections : int {
+  kAlongX = 1,
+  kAlongY = 2,
+  kAlongXY = 3,
+  kAlongZ = 4,
+  kAlongXZ = 5,
+  kAlongYZ = 6,
+  kAlongXYZ = 7
+};
 
 // `thicken_material = 3 0.2`, `thicken_material = 1 auto`
 struct MaterialValue {
@@ -216,8 +226,9 @@ struct Deck {
   int htet_transition = kHtetNone;
   std::vector<std::int64_t> htet_pyramid, htet_tied_contact, htet_no_interface;
   bool periodic = false;
+  int periodic_directions = kAlongXYZ;
   bool check_periodic = true;
-  double check_periodic_tol = 1e-6;
+  double check_periodic_tol = 0.01;
   int periodic_axis = kAxisNone;
   std::vector<std::int64_t> periodic_nodesets;  // pairs, one after the other
 

@@ -13,13 +13,15 @@ namespace sculpt {
 // A grid cut into segments[0] x segments[1] x segments[2] boxes; ranks beyond their product own nothing.
 struct CartesianParts {
   Index3 cells{0, 0, 0};
+  std::array<bool, 3> periodic{false, false, false};  // axes that have no ends: cells[d] is 0 once more
   Index3 segments{1, 1, 1};
   std::array<std::vector<std::int64_t>, 3> cuts;  // segments[d]+1 ascending cell indices per axis
 
   [[nodiscard]] IndexBox owned(int rank) const;
-  // The owned box and `layers` cells around it, inside the grid; empty where nothing is owned.
+  // The owned box and `layers` cells around it, inside the grid but on periodic axes; empty where nothing is
+  // owned.
   [[nodiscard]] IndexBox ghosted(int rank, int layers) const;
-  [[nodiscard]] int owner(const Index3& cell) const;
+  [[nodiscard]] int owner(const Index3& cell) const;  // of a cell of the grid
 };
 
 // Cuts that minimise the area between ranks; ties go to the smaller largest box, then to more segments in z,
@@ -28,7 +30,15 @@ struct CartesianParts {
 // not fit.
 [[nodiscard]] CartesianParts cut_grid(const Index3& cells, int ranks, const Index3& user);
 
-// Collective. This rank's cells with `layers` ghost layers; materials are left unset.
+// The cells per axis of the grid by whose i + nx (j + ny k) lattice_mesh numbers its cells (and likewise its
+// nodes): that of `parts`, with `layers` cells more at both ends of periodic axes.
+[[nodiscard]] Index3 numbered_grid(const CartesianParts& parts, int layers);
+
+// Local. Period and quantum of the mesh of a grid with so many ghost layers; mesh.cell_size is known.
+void set_period(HexMesh& mesh, const Grid& grid, const std::array<bool, 3>& periodic, int layers);
+
+// Collective. This rank's cells with `layers` ghost layers; materials are left unset. On a periodic axis,
+// which needs two cells at least, all of it goes on beyond the ends of the grid, with images.
 [[nodiscard]] HexMesh lattice_mesh(const Comm& comm, const Grid& grid, const CartesianParts& parts,
                                    int layers);
 

@@ -24,6 +24,11 @@ struct Grid {
   [[nodiscard]] GlobalId node_id(const Index3& n) const {
     return n[0] + (cells[0] + 1) * (n[1] + (cells[1] + 1) * n[2]);
   }
+  // Where planes meet; each index is that of a plane.
+  [[nodiscard]] Vec3 corner(const Index3& n) const {
+    return {planes[0][static_cast<std::size_t>(n[0])], planes[1][static_cast<std::size_t>(n[1])],
+            planes[2][static_cast<std::size_t>(n[2])]};
+  }
   [[nodiscard]] GlobalId cell_count() const { return cells[0] * cells[1] * cells[2]; }
 };
 

@@ -11,10 +11,10 @@ inline constexpr std::uint8_t kFirstFreeColour = 8;  // below: the parities of a
 inline constexpr std::uint8_t kNoColour = 255;
 
 // Collective. Sets mesh.colour of all local nodes and mesh.colours. preset: per local node (ghosts as their
-// owners have it) a colour below kFirstFreeColour, which it keeps, or kNoColour. Nodes without one get a
-// colour from kFirstFreeColour upwards that no other node of their hexes has; it depends on ids and
-// connectivity only. Needs the exchange of nodes and one complete ghost layer of hexes. Work: a pass over the
-// hexes, the rest in proportion to the nodes without a preset colour.
+// owners have it; may be mesh.colour) a colour below kFirstFreeColour, which it keeps, or kNoColour. Nodes
+// without one get a colour from kFirstFreeColour upwards that no other node of their hexes has; it depends on
+// ids and connectivity only. Needs the exchange of nodes and one complete ghost layer of hexes. Work: a pass
+// over the hexes, the rest in proportion to the nodes without a preset colour.
 void colour_nodes(HexMesh& mesh, std::span<const std::uint8_t> preset);
 
 }  // namespace sculpt

@@ -23,11 +23,12 @@ void compact(std::vector<T>& list, std::span<const LocalId> index) {
 // the new index of each old node.
 std::vector<LocalId> drop_unused_nodes(HexMesh& mesh);
 
-// Local. Every coordinate is scaled, then translated; the cell size is scaled.
+// Collective. Every coordinate is scaled, then translated; the cell size and the period are scaled. From now
+// on images are the period away from their homes, and no longer the period rounded to the quantum.
 void transform(HexMesh& mesh, const Vec3& scale, const Vec3& translate);
 
-// Collective. Takes away hexes (remove: 1 per local hex, ghosts marked as their owners mark them) and the
-// nodes that no hex uses any more; ids stay. Answers with the new index of each old hex, kNone = removed.
-std::vector<LocalId> remove_hexes(const Comm& comm, HexMesh& mesh, std::span<const std::uint8_t> remove);
+// Collective. Takes away hexes (remove: per local hex, 1 = by its owner) and the nodes that no hex uses any
+// more; ids stay. Answers with the new index of each old hex, kNone = removed.
+std::vector<LocalId> remove_hexes(const Comm& comm, HexMesh& mesh, std::vector<std::uint8_t> remove);
 
 }  // namespace sculpt

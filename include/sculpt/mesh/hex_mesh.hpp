@@ -5,6 +5,16 @@
 // Local numbering ascends in global id, for nodes and hexes, owned and ghost alike: so "in local order" is
 // "in canonical order", and adjacency lists built by a plain loop are sorted for free. layer says what is
 // owned.
+//
+// Periodic meshes: around the domain lie images of its nodes and hexes, a whole number of periods away
+// (docs/periodic.md). They are local entities like all others and belong to the ghost layers, and every rank
+// holds its own. An image has
+//   - an id of its own; ids ascend in an order that a translation by a period does not change, so that lists
+//     around an entity and around its images are in the same order;
+//   - the home, which is the id of the entity in the domain that it is an image of; the domain holds the
+//     nodes on its low sides, those on the high sides are images;
+//   - the owner of the home plus the number of ranks, so that no rank takes an image for its own;
+//   - the value of its home in every exchange, positions translated (share_positions).
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -22,11 +32,14 @@ namespace sculpt {
 enum BoxSide : std::uint8_t { kXmin = 1, kXmax = 2, kYmin = 4, kYmax = 8, kZmin = 16, kZmax = 32 };
 inline constexpr std::uint8_t kAxisSides[3] = {kXmin | kXmax, kYmin | kYmax, kZmin | kZmax};
 
+// How many periods an image lies from its home, per axis; 0 0 0 for what is no image.
+using Image = std::array<std::int16_t, 3>;
+
 struct HexMesh {
   // Nodes.
   std::vector<Vec3> position;
   std::vector<GlobalId> node_id;         // key that does not depend on the number of ranks, ascending
-  std::vector<std::int32_t> node_owner;  // rank
+  std::vector<std::int32_t> node_owner;  // rank; of images: rank + number of ranks
   std::vector<std::uint8_t> box_sides;   // sides of the domain box that hold the node
   std::vector<std::uint8_t>
       colour;                       // nodes of one colour share no hex unless they stem from one overlay node
@@ -36,9 +49,15 @@ struct HexMesh {
   // Hexes.
   std::vector<Hex> hexes;               // Exodus corner order, local node indices
   std::vector<GlobalId> hex_id;         // as node_id, ascending
-  std::vector<std::int32_t> hex_owner;  // rank
+  std::vector<std::int32_t> hex_owner;  // as node_owner
   std::vector<std::uint8_t> layer;      // 0 owned, 1 and above: ghost layers outwards
   std::vector<std::int32_t> material;   // dense material index
+
+  // Of periodic meshes; empty in others.
+  std::vector<GlobalId> node_home, hex_home;
+  std::vector<Image> node_image, hex_image;
+  Vec3 period{0, 0, 0};   // per axis; 0 = not periodic
+  Vec3 quantum{0, 0, 0};  // powers of two that positions are multiples of; 0 = of nothing
 
   GhostExchange node_exchange;  // ghost nodes take their owners' values
   GhostExchange hex_exchange;   // likewise for hexes
@@ -77,6 +96,14 @@ struct HexMesh {
   [[nodiscard]] double volume_in_cells(LocalId cell) const {
     return lattice[0] != 0 ? 1.0 : hex_volume(corners(cell)) / (cell_size.x * cell_size.y * cell_size.z);
   }
+  // The ids that the owners of nodes and hexes know them by.
+  [[nodiscard]] std::span<const GlobalId> node_homes() const {
+    return node_home.empty() ? node_id : node_home;
+  }
+  [[nodiscard]] std::span<const GlobalId> hex_homes() const { return hex_home.empty() ? hex_id : hex_home; }
+  [[nodiscard]] Image image_of(LocalId hex) const {
+    return hex_image.empty() ? Image{0, 0, 0} : hex_image[static_cast<std::size_t>(hex)];
+  }
 };
 
 // Local: sides of the box that all corners of a hex face share; 0 inside.
@@ -88,5 +115,22 @@ struct HexMesh {
     if (sides & kAxisSides[d]) move[d] = 0;
   return move;
 }
+
+// Collective. Makes both exchanges anew from ids, homes and owners.
+void connect_ranks(const Comm& comm, HexMesh& mesh);
+
+// Local. In a periodic mesh the position of an owned node is rounded to the quantum, so that differences of
+// positions are the same, to the last bit, for an entity and its images. Whoever moves owned nodes does this,
+// or lets share_positions do it, before the moves are looked at.
+void round_to_quantum(const HexMesh& mesh, Vec3& position);
+
+// Local. Where a ghost node is when its home is at `home`: one addition of the period per axis.
+[[nodiscard]] Vec3 position_of_ghost(const HexMesh& mesh, LocalId node, const Vec3& home);
+
+// Collective. Ghosts take the positions of their owners' nodes; owned ones are rounded to the quantum first.
+void share_positions(HexMesh& mesh);
+// The same for the positions of some nodes (ascending), with their own exchange.
+void share_positions(const HexMesh& mesh, const GhostExchange& exchange, std::span<const LocalId> nodes,
+                     std::vector<Vec3>& position);
 
 }  // namespace sculpt

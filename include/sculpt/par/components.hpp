@@ -1,6 +1,7 @@
 #pragma once
 // Connected components of entities that are spread over ranks (cells joined by faces, quads joined by edges).
 // The label of a component is the smallest global id in it, so it does not depend on the number of ranks.
+// An entity of a periodic mesh and its images count as one.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -42,14 +43,15 @@ class DisjointSets {
 
 struct Components {
   std::vector<std::int32_t> of;  // per local entity: its component, an index into the next two
-  std::vector<GlobalId> label;   // smallest global id in the component, over all ranks
+  std::vector<GlobalId> label;   // smallest id in the component, over all ranks
   std::vector<LocalId> first;    // smallest local member
 };
 
-// Collective. sets: what this rank joined; ids: global ids of the local entities, ascending; exchange:
-// theirs. Two entities are in one component when any chain of joins, on whichever ranks, leads from one to
-// the other; it is enough that every join is made on one rank. Takes as many rounds of messages as the
-// smallest id needs to travel through the ranks, plus one.
+// Collective. sets: what this rank joined; ids: global ids of the local entities, for images those of their
+// homes; exchange: theirs. Two entities are in one component when any chain of joins, on whichever ranks,
+// leads from one to the other; it is enough that every join is made on one rank. Local components that hang
+// together elsewhere only, or through images, stay apart here and have the same label. Takes as many rounds
+// of messages as the smallest id needs to travel through the ranks, plus one.
 [[nodiscard]] Components connected_components(const Comm& comm, DisjointSets sets,
                                               std::span<const GlobalId> ids, const GhostExchange& exchange);
 

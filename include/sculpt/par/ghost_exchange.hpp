@@ -1,6 +1,10 @@
 #pragma once
 // Copies of shared entities kept equal: every entity has one owner rank, other ranks hold ghosts of it.
 // Messages are ordered by global id, so that they carry values only.
+//
+// In a periodic mesh an entity may also have images: copies of it a whole number of periods away, with ids
+// of their own. To all exchanges an image is one more ghost, whichever rank holds it, also that of the owner
+// itself; its home is the id of the entity it is an image of.
 #include <algorithm>
 #include <cstring>
 #include <span>
@@ -15,16 +19,20 @@ namespace sculpt {
 
 class GhostExchange {
  public:
-  // One neighbouring rank and the local entities exchanged with it, ascending in global id on both sides.
+  // One rank and the local entities exchanged with it, in the same order on both sides: ascending in the
+  // global ids of the ghosts. What is sent may occur several times, once for every image, and the rank may
+  // be this one.
   struct Link {
     int rank;
     std::vector<LocalId> items;
   };
 
   GhostExchange() : comm_(Comm::self()) {}
-  // Collective. ids: global ids of the local entities, ascending; owner: their owner ranks. Throws
+  // Collective. ids: global ids of the local entities, ascending; owner: their owner ranks, plus comm.size()
+  // for images; homes: the ids that the owners know the entities by, empty where these are `ids`. Throws
   // BrokenPromise when a ghost is unknown to its owner.
-  GhostExchange(const Comm& comm, std::span<const GlobalId> ids, std::span<const std::int32_t> owner);
+  GhostExchange(const Comm& comm, std::span<const GlobalId> ids, std::span<const std::int32_t> owner,
+                std::span<const GlobalId> homes = {});
 
   // Collective. Every ghost takes its owner's value.
   template <class T>

@@ -9,6 +9,9 @@
 
 namespace sculpt {
 
+// Local. The largest resident memory of this process so far.
+[[nodiscard]] std::int64_t peak_kib();
+
 class Stages {
  public:
   Stages();

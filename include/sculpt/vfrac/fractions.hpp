@@ -1,6 +1,6 @@
 #pragma once
-// Volume fractions on the cells of the overlay mesh: look-up, expansion layers (the report, 2.7.5), and the
-// fractions that agree with a filtered assignment. Local.
+// Volume fractions on the cells of the overlay mesh: look-up, expansion layers (the report, 2.7.5), those of
+// ghosts, and the fractions that agree with a filtered assignment. Local unless said otherwise.
 #include <cstdint>
 #include <span>
 
@@ -23,12 +23,13 @@ namespace sculpt {
 [[nodiscard]] Fractions expand_fractions(const Fractions& data, const IndexBox& source_box,
                                          const IndexBox& box, std::int64_t expand,
                                          const Index3& source_cells);
-// Collective. The fractions of all local cells from those of the owned ones, in the order of the cells:
-// ghosts get those of their owners.
-[[nodiscard]] Fractions with_ghosts(const HexMesh& cells, const Fractions& owned);
 
 // The source cells that `box` of the grown grid takes its data from.
 [[nodiscard]] IndexBox source_of(const IndexBox& box, std::int64_t expand, const Index3& source_cells);
+
+// Collective. The fractions of all local cells, from those of the owned cells (in local order): ghosts, and
+// the images of a periodic mesh, have what their owners have.
+[[nodiscard]] Fractions with_ghosts(const HexMesh& cells, const Fractions& owned);
 
 // Fractions in which the assigned material of each cell is dominant: where the filter reassigned a cell the
 // fractions of its former dominant material and of the new one are exchanged (section 3.1 of the stage's

@@ -13,7 +13,10 @@
 //   rve       1..6 = the sides xmin, xmax, ymin, ymax, zmin, zmax of the box
 //
 // A face between two meshed materials is listed once, by the cell of the larger dense material index. A set
-// without faces does not appear.
+// without faces does not appear. In a periodic mesh the sides of the box are the faces that have a partner
+// one period away (docs/periodic.md): they count as sides of the box whatever material lies beyond. Where
+// nothing is meshed beyond, the faces are exterior ones; a surface of `variable` that has lost all its faces
+// so leaves a gap in the ids.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -37,9 +40,9 @@ struct SidePlan {
 };
 
 // Collective. gen_sidesets: a value of GenSidesets (deck.hpp); kSidesetsOff gives an empty plan. drop: per
-// cell, 1 = no part of the mesh; all of these have one material that no other cell has. grid: cells of the
-// Cartesian grid per axis, all 0 when the overlay mesh is none (the planes of one axis then count as one).
-// brep is used for `variable` only.
+// cell, 1 = no part of the mesh; all of these have one material that no other cell has. grid: cells per
+// axis of the Cartesian grid that the ids are made of (numbered_grid), all 0 when the overlay mesh is none
+// (the planes of one axis then count as one). brep is used for `variable` only.
 [[nodiscard]] SidePlan plan_side_sets(const Comm& comm, const HexMesh& cells,
                                       const FaceNeighbours& neighbours, const Interfaces& faces,
                                       const Brep& brep, std::span<const std::uint8_t> drop,

@@ -2,6 +2,7 @@
 // Writes the finished mesh, one Exodus file per rank (docs/file-formats.md). Global ids run from 1 and do not
 // depend on the number of ranks; the files appear under their final names only when all ranks have written
 // theirs.
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -29,11 +30,15 @@ struct WriteOptions {
   std::vector<std::int64_t> block_id;  // of each dense material index
   std::map<std::int64_t, std::string> block_names, side_set_names;
   std::vector<HexVariable> variables;
+  // Of a periodic mesh, per axis: ids of the node sets of its low and its high side; 0 = none. A set holds
+  // the nodes that have a partner on the other side, in ascending global id, which is the same order on both
+  // sides: in a file that holds all nodes the i-th ones are partners.
+  std::array<std::array<std::int64_t, 2>, 3> periodic_node_sets{};
 };
 
 struct WriteSummary {
   std::int64_t nodes = 0, hexes = 0;
-  std::size_t blocks = 0, side_sets = 0;
+  std::size_t blocks = 0, node_sets = 0, side_sets = 0;
 };
 
 // Collective. side_faces: of owned hexes, each once. Throws AgreedError when a file cannot be written

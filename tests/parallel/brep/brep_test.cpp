@@ -111,6 +111,34 @@ TEST(Brep, WorksWithMoreRanksThanCells) {
   EXPECT_EQ(t.box.surfaces, 10);
 }
 
+// A block around the corner of the domain, in eight parts, is one volume with one closed surface.
+TEST(Brep, GoesThroughPeriodicSides) {
+  const Case block = periodic(voxels("block", {6, 5, 4}, 2, [](const Index3& c) {
+    return static_cast<std::int32_t>((c[0] + 1) % 6 < 2 && (c[1] + 1) % 5 < 2 && (c[2] + 1) % 4 < 2);
+  }));
+  const Traced one = traced(Comm::world(), overlay(Comm::world(), block));
+  EXPECT_EQ(one.brep.volumes, 2);
+  EXPECT_EQ(one.brep.surfaces, 1);
+  EXPECT_EQ(one.brep.curves, 0);
+  EXPECT_EQ(one.brep.vertices, 0);
+  EXPECT_EQ(one.box.surfaces, 6 + 6 * 4) << "the sides of the files, where they cut the volumes";
+  // Layers without an end, and bars of which three meet along closed curves.
+  const Case layers = periodic(
+      voxels("layers", {6, 4, 3}, 2, [](const Index3& c) { return static_cast<std::int32_t>(c[0] < 3); }));
+  const Traced two = traced(Comm::world(), overlay(Comm::world(), layers));
+  EXPECT_EQ(two.brep.volumes, 2);
+  EXPECT_EQ(two.brep.surfaces, 2);
+  EXPECT_EQ(two.brep.curves, 0);
+  const Case bars = periodic(voxels("bars", {6, 4, 3}, 3, [](const Index3& c) {
+    return static_cast<std::int32_t>(c[0] < 3 ? 0 : 1 + c[1] / 2);
+  }));
+  const Traced three = traced(Comm::world(), overlay(Comm::world(), bars));
+  EXPECT_EQ(three.brep.volumes, 3);
+  EXPECT_EQ(three.brep.surfaces, 6);
+  EXPECT_EQ(three.brep.curves, 4);
+  EXPECT_EQ(three.brep.vertices, 0);
+}
+
 // Entities 0..n-1 in a row, dealt out to the ranks in turn; a join is known to one rank only, which has one
 // end as a ghost.
 TEST(Components, FollowJoinsThatOneRankKnows) {

@@ -116,6 +116,55 @@ TEST(GhostExchange, RecordsOfUnequalLength) {
                           : std::string("abcd").substr(0, static_cast<std::size_t>(row.ids[i] / 10 % 4)));
 }
 
+// The row closed to a ring: the ghosts beyond its ends are images, ids of images lie 10 n off.
+struct Ring {
+  Ring(const Comm& world, GlobalId reach) : comm(world) {
+    const GlobalId n = kEach * comm.size(), first = kEach * comm.rank();
+    for (GlobalId id = first - reach; id < first + kEach + reach; ++id) {
+      const GlobalId home = (id + 100 * n) % n;
+      ids.push_back(10 * id);
+      homes.push_back(10 * home);
+      owner.push_back(static_cast<std::int32_t>(home / kEach) + (home == id ? 0 : comm.size()));
+    }
+    exchange = GhostExchange(comm, ids, owner, homes);
+  }
+  Comm comm;
+  std::vector<GlobalId> ids, homes;
+  std::vector<std::int32_t> owner;
+  GhostExchange exchange;
+};
+
+TEST(GhostExchange, ImagesTakeTheValuesOfTheirHomes) {
+  for (const GlobalId reach : {1, 2, 7}) {  // with few ranks the last one goes around more than once
+    const Ring ring(Comm::world(), reach);
+    std::vector<GlobalId> values(ring.ids.size(), -1);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (ring.owner[i] == ring.comm.rank()) values[i] = 7 * ring.ids[i];
+    ring.exchange.copy_to_ghosts(values);
+    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(values[i], 7 * ring.homes[i]);
+  }
+}
+
+TEST(GhostExchange, OwnersHearOfAllTheirImages) {
+  const Ring ring(Comm::world(), kEach);
+  std::vector<GlobalId> values = ring.ids;
+  ring.exchange.reduce_to_owners(std::span<GlobalId>(values),
+                                 [](GlobalId a, GlobalId b) { return std::max(a, b); });
+  const GlobalId n = kEach * ring.comm.size();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (ring.owner[i] == ring.comm.rank()) {
+      const bool beyond = ring.homes[i] < 10 * kEach;  // the last rank sees the first ones beyond the end
+      EXPECT_EQ(values[i], ring.homes[i] + (beyond ? 10 * n : 0));
+    }
+  std::vector<std::uint8_t> changed(values.size(), 1);
+  std::vector<GlobalId> told = ring.ids;
+  int arrived = 0;
+  ring.exchange.copy_changed(std::span<GlobalId>(told), std::span<std::uint8_t>(changed),
+                             [&](LocalId) { ++arrived; });
+  EXPECT_EQ(told, ring.homes);
+  EXPECT_EQ(arrived, 2 * kEach);
+}
+
 TEST(GhostExchange, RanksMayHaveNothing) {
   const Comm comm = Comm::world();
   std::vector<GlobalId> ids;

@@ -101,6 +101,42 @@ TEST(SameMesh, WithLayersAroundCurves) {
     }
 }
 
+// Periodic meshes: odd and even numbers of cells, axes so short that the ghosts wrap around more than once,
+// and cells that compete with each other all around the torus.
+TEST(SameMesh, OfPeriodicGrids) {
+  expect_same_alone_and_together(periodic(grains({12, 11, 10}, 20, 8, 4)));
+  expect_same_alone_and_together(periodic(grains({9, 8, 7}, 12, 5, 7), {true, false, true}));
+  expect_same_alone_and_together(periodic(noise({7, 6, 5}, 3, 3)));
+  Case input = periodic(two_phase_fractions({9, 8, 10}, 5));
+  input.grid = box_grid(input.grid.cells, {-0.3, 0.1, 1}, {0.7, 1.1, 1.9});
+  expect_same_alone_and_together(input);
+}
+
+TEST(SameMesh, OfThinPeriodicGrids) {
+  for (const std::int64_t n : {2, 3})
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      expect_same_alone_and_together(periodic(noise({8, 7, n}, 3, seed)));
+      expect_same_alone_and_together(periodic(noise({n, n, 3}, 2, seed)));
+    }
+  expect_same_alone_and_together(periodic(noise({6, 1, 2}, 2, 8), {true, false, true}));
+}
+
+TEST(SameMesh, OfPeriodicGridsWithLayers) {
+  StageOptions options;
+  options.layers.surfaces = true;
+  options.layers.curves = true;
+  options.layers.curve_threshold = 0.6;
+  expect_same_alone_and_together(periodic(grains({10, 9, 4}, 12, 5, 7)), options);
+  options.layers = {};
+  options.layers.boundary_layers = 2;
+  expect_same_alone_and_together(periodic(grains({8, 7, 6}, 9, 5, 7), {true, true, false}), options);
+  options = {};
+  options.void_material = 0;
+  expect_same_alone_and_together(periodic(noise({5, 5, 4}, 3, 1)), options);
+  options.smoothing.method = OptimisationMethod::kPublished;
+  expect_same_alone_and_together(periodic(grains({8, 7, 6}, 9, 5, 7)), options);
+}
+
 TEST(SameMesh, WithAllLayers) {
   StageOptions options;
   options.void_material = 1;
@@ -188,6 +224,30 @@ TEST(FilterMaterials, IsTheSameAloneAndTogether) {
                                           NodeHexes(together.cells)));
       EXPECT_EQ(ghost_problem(together.cells), "") << input.name;
     }
+}
+
+TEST(Defeature, OfPeriodicGridsIsTheSameAloneAndTogether) {
+  const Comm world = Comm::world();
+  FilterOptions options;
+  options.defeature = options.collapse = options.reversals = true;
+  options.keep_materials = 3;
+  const auto stripes = [](const Index3& c) { return static_cast<std::int32_t>((c[0] + c[1] + c[2]) % 3); };
+  for (const Case& input :
+       {periodic(noise({7, 6, 5}, 3, 5)), periodic(voxels("stripes", {9, 6, 3}, 3, stripes)),
+        periodic(noise({8, 2, 3}, 3, 9)), periodic(noise({6, 5, 4}, 3, 2), {false, true, false})}) {
+    Overlay together = overlay(world, input), alone = overlay(Comm::self(), input);
+    const auto filter = [&options](Overlay& o) {
+      return filter_materials(o.cells, o.fractions, face_neighbours(o.cells), NodeHexes(o.cells), options);
+    };
+    const FilterReport a = filter(together), b = filter(alone);
+    EXPECT_EQ(a.islands, b.islands) << input.name;
+    EXPECT_EQ(a.island_cells, b.island_cells) << input.name;
+    EXPECT_EQ(a.manifold_cells, b.manifold_cells) << input.name;
+    EXPECT_EQ(checksum(world, together.cells), checksum(Comm::self(), alone.cells)) << input.name;
+    EXPECT_TRUE(
+        interfaces_are_manifold(together.cells, face_neighbours(together.cells), NodeHexes(together.cells)));
+    EXPECT_EQ(ghost_problem(together.cells), "") << input.name;
+  }
 }
 
 TEST(Thicken, IsTheSameAloneAndTogether) {

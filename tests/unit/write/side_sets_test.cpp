@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -34,18 +35,21 @@ LayerPlan plan_of(Hexes kind) {
   return p;
 }
 
-// The mesh with its side sets; `left_out` is a material that is not meshed.
-Made made(const Case& input, Hexes kind, int gen_sidesets, std::int32_t left_out = -1) {
+// The mesh with its side sets; `left_out` is a material that is not meshed; is_lattice: the cells know that
+// they are one.
+Made made(const Case& input, Hexes kind, int gen_sidesets, std::int32_t left_out = -1,
+          bool is_lattice = true) {
   const Comm comm = Comm::self();
   const LayerPlan layers = plan_of(kind);
-  const HexMesh cells = filtered(comm, input, layers.ghost_layers()).cells;
+  HexMesh cells = filtered(comm, input, layers.ghost_layers()).cells;
+  if (!is_lattice) cells = turned(std::move(cells));
   const FaceNeighbours neighbours = face_neighbours(cells);
   const Interfaces faces = trace_interfaces(cells, neighbours);
   const Brep brep = build_brep(comm, cells, neighbours, faces);
   std::vector<std::uint8_t> drop(cells.hexes.size(), 0);
   for (std::size_t c = 0; c < drop.size(); ++c) drop[c] = cells.material[c] == left_out;
-  const SidePlan plan =
-      plan_side_sets(comm, cells, neighbours, faces, brep, drop, input.grid.cells, gen_sidesets);
+  const SidePlan plan = plan_side_sets(comm, cells, neighbours, faces, brep, drop,
+                                       is_lattice ? input.grid.cells : Index3{0, 0, 0}, gen_sidesets);
   if (kind == Hexes::kStair) {
     const std::vector<std::int32_t> none(cells.hexes.size(), -1);
     HexMesh mesh = pillow(comm, cells, neighbours, none, drop, {}).mesh;
@@ -94,6 +98,20 @@ TEST(SideSets, VariableOfTheLetterFAreThoseOfSculpt) {
     EXPECT_EQ(face_sides(m.mesh, f.hex, f.face), side) << "set " << f.set;
     EXPECT_EQ(m.mesh.material[at(f.hex)], material) << "set " << f.set;
   }
+}
+
+TEST(SideSets, AreTheSameFacesWhateverTheOrderOfCorners) {
+  for (const Hexes kind : kAllHexes)
+    for (const int sets : {kSidesetsFixed, kSidesetsVariable, kSidesetsRve}) {
+      const Case input = grains({9, 8, 10}, 12, 4, 3);
+      std::vector<std::int64_t> lattice = sizes(made(input, kind, sets, 2).faces),
+                                any = sizes(made(input, kind, sets, 2, false).faces);
+      if (sets == kSidesetsVariable) {  // in another order
+        std::sort(lattice.begin(), lattice.end());
+        std::sort(any.begin(), any.end());
+      }
+      EXPECT_EQ(any, lattice);
+    }
 }
 
 TEST(SideSets, FixedOfTheLetterFAreBoundaryAndInterface) {

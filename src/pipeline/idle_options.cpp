@@ -25,7 +25,7 @@ constexpr Use kUses[] = {
     {"adapt_export", [](int type) { return type != kAdaptOff; }},
     {"adapt_non_manifold", refines},
     {"adapt_load_balance", refines},
-    {"adapt_memory_stats", [](int type) { return type != kAdaptOff; }},
+    {"adapt_memory_stats", refines},
 };
 
 // A flag that is off asks for nothing.
@@ -51,8 +51,9 @@ std::vector<std::string> idle_adapt_options(const Deck& deck) {
   if (off) told.push_back("adapt_levels = 0 leaves the grid as it is; no effect: adapt_type");
   std::string idle;
   for (const Use& use : kUses) {
-    const bool levels = use.option == "adapt_levels" && off;  // told already
-    if (!asks(deck, use.option) || levels || (!off && use.has_effect(deck.adapt_type))) continue;
+    // Without levels: told already; the grid is written all the same.
+    const bool apart = off && (use.option == "adapt_levels" || use.option == "adapt_export");
+    if (!asks(deck, use.option) || apart || (!off && use.has_effect(deck.adapt_type))) continue;
     if (off)
       told.back() += fmt::format(", {}", use.option);
     else

@@ -76,7 +76,7 @@ void make(Arguments& arguments) {
     write_fractions(arguments.text(), make_grains(options), static_cast<std::int32_t>(options.grains));
   } else if (kind == "phases") {
     const Counts n = arguments.counts();
-    const std::int64_t radius = arguments.number(1, 20);
+    const std::int64_t radius = arguments.number(1, 29);  // more could overflow the sums
     const std::uint64_t seed = arguments.seed();
     write_spn(arguments.text(), microstructure::make_two_phases(n, radius, seed));
   } else if (kind == "spray") {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "pipeline/console.hpp"
 #include "pipeline/layers.hpp"
@@ -203,6 +204,9 @@ class Adapter {
   AdaptCriterion criterion_of() {
     AdaptCriterion c;
     levels_ = deck_.adapt_levels;
+    if (deck_.adapt_type == kAdaptMaterial && !deck_.given("adapt_levels"))
+      for (const NumberRecord& record : deck_.adapt_material)  // each has its own
+        if (record.numbers.size() > 1) levels_ = std::max(levels_, static_cast<int>(record.numbers[1]));
     const Vec3 h = grid_.cell_size();
     c.threshold = deck_.adapt_threshold >= 0 ? deck_.adapt_threshold : kFractionThreshold;
     c.non_manifold = deck_.adapt_non_manifold;
@@ -231,12 +235,14 @@ class Adapter {
           "option 'adapt_type' ({}): {} measures the distance from facets or shapes, but the input has "
           "none; use surface_to_surface or vfrac_average",
           place_of(deck_, "adapt_type"), type_name(deck_)));
-    if (source_.is_data())
+    if (source_.is_data()) {
+      c.threshold = std::numeric_limits<double>::infinity();
       log_.line(
           "WARNING: {}: the input is data on the cells of the grid, which has no finer surface; nothing is "
           "refined but "
           "with vfrac_average or material",
           type_name(deck_));
+    }
     return c;
   }
 

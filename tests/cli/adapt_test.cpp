@@ -93,6 +93,11 @@ TEST_F(Adapt, Materials) {
   const std::int64_t both =
       hexes_of(expect_refined(deck + "adapt_material = 1 2 0.01 1.5\nadapt_material = 2 1\n", kPair));
   EXPECT_GT(both, inner);
+  // A record may go deeper than the default of adapt_levels, but not than what is given.
+  (void)mesh(deck + "adapt_material = 1 3\n", 1);
+  EXPECT_NE(console().find("  level 3: "), std::string::npos);
+  (void)mesh(deck + "adapt_material = 1 3\nadapt_levels = 1\n", 1);
+  EXPECT_EQ(console().find("  level 2: "), std::string::npos);
   (void)mesh(deck, 1);
   EXPECT_EQ(refined_blocks(console()), 0);
   EXPECT_NE(console().find("WARNING: adapt_type = material without adapt_material"), std::string::npos);
@@ -183,6 +188,15 @@ TEST_F(Adapt, VolumeFractions) {
   expect_refined("input_micro = f.tec\nadapt_type = coarsen\nadapt_levels = 1\n", kPair);
 }
 
+// Data have no surface finer than their cells.
+TEST_F(Adapt, NoDistancesInData) {
+  write("f.tec", smooth_fractions());
+  const std::string deck = "input_micro = f.tec\n";
+  const std::int64_t plain = hexes_of(mesh(deck, 1));
+  EXPECT_EQ(hexes_of(mesh(deck + "adapt_type = surface_to_surface\nadapt_threshold = 0\n", 1)), plain);
+  EXPECT_NE(console().find("WARNING: surface_to_surface"), std::string::npos);
+}
+
 TEST_F(Adapt, ExodusGrids) {
   const Voxels voxels = grains(6, 4, 2);
   write("v.spn", spn_text(voxels));
@@ -198,6 +212,16 @@ TEST_F(Adapt, ExodusGrids) {
 TEST_F(Adapt, OneCellThick) {
   expect_refined(one_layer(), "adapt_type = vfrac_average\nadapt_levels = 1\n", {2, 3, 5, 8});
   expect_refined(one_layer(), "adapt_type = coarsen\nadapt_levels = 1\nadapt_remainder = pad\n", kPair);
+}
+
+TEST_F(Adapt, PeriodicGrids) {
+  const std::string deck =
+      spheres() +
+      "xmax = 12\nymax = 12\nzmax = 12\nxmin = -12\nymin = -12\nzmin = -12\nmesh_void = true\n"
+      "periodic = true\nadapt_type = vfrac_average\nadapt_levels = 1\nadapt_threshold = 0.2\n";
+  expect_refined(deck, kPair);
+  expect_refined(deck + "adapt_load_balance = true\n", {3});
+  expect_refined(grains(12, 5, 3), "periodic = true\nadapt_type = coarsen\nadapt_levels = 1\n", kPair);
 }
 
 TEST_F(Adapt, MoreRanksThanBlocks) {
@@ -277,6 +301,9 @@ std::vector<Mistake> adapt_mistakes() {
       {"CoarsenedExpansion",
        voxels("adapt_type = coarsen\nmicro_expand = 1\n"),
        {"micro_expand", "line 7 of deck.i", "coarsen"}},
+      {"OddPeriod",
+       voxels("adapt_type = vfrac_average\nperiodic = true\n"),
+       {"periodic", "even number of cells along x, found 3"}},
       {"TooSmallMargins",
        voxels("adapt_type = material\nadapt_material = 1 1 0 -3\n"),
        {"adapt_material", "distance", "-3"}},

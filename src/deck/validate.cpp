@@ -126,9 +126,7 @@ const std::vector<Rule>& rules() {
        },
        {"pillow", "pillow_curve_layers"},
        "pillow and pillow_curve_layers ask for different numbers of layers"},
-      {[](const Deck& d) {
-         return coarsens(d) && (d.given("stl_file") || d.given("diatom_file"));
-       },
+      {[](const Deck& d) { return coarsens(d) && (d.given("stl_file") || d.given("diatom_file")); },
        {"adapt_type", "stl_file", "diatom_file"},
        "adapt_type = coarsen and resample need data on a dense grid; shapes are refined by vfrac_average"},
       {[](const Deck& d) { return coarsens(d) && d.micro_expand > 0; },
@@ -238,9 +236,10 @@ void check_adapt_materials(const Deck& deck) {
         fmt::format("option 'adapt_material' ({}): record {} ({:g})",
                     deck.given_options.place("adapt_material"), r + 1, fmt::join(numbers, " "));
     if (numbers.size() > kMostRecordNumbers)
-      throw Error(fmt::format("{} has {} numbers; expected at most 5: id, levels, volume fraction, distance "
-                              "and one without effect",
-                              begin, numbers.size()));
+      throw Error(
+          fmt::format("{} has {} numbers; expected at most 5: id, levels, volume fraction, distance "
+                      "and one without effect",
+                      begin, numbers.size()));
     for (std::size_t n = 0; n < std::min(numbers.size(), std::size(kMaterialRecord)); ++n) {
       const RecordNumber& must = kMaterialRecord[n];
       const bool whole = !must.whole || numbers[n] == std::floor(numbers[n]);

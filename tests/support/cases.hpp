@@ -22,7 +22,7 @@ struct Case {
   // is no lattice.
   std::function<std::uint8_t(const Index3&)> level{};
   Vec3 cell_size{};
-  std::array<bool, 3> periodic{false, false, false};    // axes
+  std::array<bool, 3> periodic{false, false, false};  // axes
 };
 // The same input, periodic in some axes.
 [[nodiscard]] Case periodic(Case input, const std::array<bool, 3>& axes = {true, true, true});

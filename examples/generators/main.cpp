@@ -11,6 +11,7 @@
 #include "fractions.hpp"
 #include "grains.hpp"
 #include "phases.hpp"
+#include "spheres.hpp"
 #include "spray.hpp"
 
 namespace {
@@ -22,6 +23,7 @@ constexpr const char* kHelp = R"(Usage:
   microstructure phases NX NY NZ RADIUS SEED FILE.spn     two interwoven phases, ids 1 and 2
   microstructure spray NX NY NZ SEED FILE.spn             spray deposit: 1 pores, 2 and 3 splats
   microstructure fractions NX NY NZ GRAINS SEED FILE.tec  polycrystal as volume fractions
+  microstructure spheres BOX COUNT SEED FILE.diatom       balls of several sizes in the cube from 0 to BOX
 
 NX, NY, NZ: number of cells, up to 600. An .spn file has z fastest and x slowest, one row of the file per row of cells along z.
 )";
@@ -81,8 +83,14 @@ void make(Arguments& arguments) {
     const Counts n = arguments.counts();
     const std::uint64_t seed = arguments.seed();
     write_spn(arguments.text(), microstructure::make_spray(n, seed));
+  } else if (kind == "spheres") {
+    microstructure::SphereOptions options;
+    options.box = arguments.number(1, 100000);
+    options.count = arguments.number(1, 5000);
+    options.seed = arguments.seed();
+    write_spheres(arguments.text(), options);
   } else {
-    throw std::runtime_error("found '" + kind + "', expected grains, phases, spray or fractions");
+    throw std::runtime_error("found '" + kind + "', expected grains, phases, spray, fractions or spheres");
   }
 }
 

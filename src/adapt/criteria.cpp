@@ -165,22 +165,29 @@ class Marker {
     return false;
   }
 
-  // Interfaces may run between cells.
+  // Interfaces may run between cells: what lies just inside a side, an edge or a corner is compared with what
+  // lies just outside.
   [[nodiscard]] bool differs_from_outside(int level, const Index3& cell, const Box& box,
                                           const Vec3& thickness) {
-    clear(scratch_);
-    field_.measure(box, scratch_);
-    std::size_t count = 1;
     for (int o = 0; o < 27; ++o) {
       const std::array<int, 3> side{o % 3 - 1, o / 3 % 3 - 1, o / 9 - 1};
       if (o == 13 || !in_grid(level, {cell[0] + side[0], cell[1] + side[1], cell[2] + side[2]})) continue;
-      Box beside = box;
+      Box inside = box, outside = box;
       for (std::size_t d = 0; d < 3; ++d) {
-        if (side[d] < 0) beside.hi[d] = box.lo[d], beside.lo[d] = box.lo[d] - thickness[d];
-        if (side[d] > 0) beside.lo[d] = box.hi[d], beside.hi[d] = box.hi[d] + thickness[d];
+        if (side[d] < 0) {
+          inside.hi[d] = box.lo[d] + thickness[d];
+          outside.hi[d] = box.lo[d];
+          outside.lo[d] = box.lo[d] - thickness[d];
+        } else if (side[d] > 0) {
+          inside.lo[d] = box.hi[d] - thickness[d];
+          outside.lo[d] = box.hi[d];
+          outside.hi[d] = box.hi[d] + thickness[d];
+        }
       }
-      field_.measure(beside, scratch_);
-      if (difference(scratch_, 0, count++) > criterion_.threshold) return true;
+      clear(scratch_);
+      field_.measure(inside, scratch_);
+      field_.measure(outside, scratch_);
+      if (difference(scratch_, 0, 1) > criterion_.threshold) return true;
     }
     return false;
   }
@@ -188,16 +195,17 @@ class Marker {
   [[nodiscard]] bool holds_material(int level, const Box& box) {
     for (const AdaptCriterion::Material& m : criterion_.materials) {
       if (level >= m.levels) continue;
-      const Box reach = inside_domain(grown(box, {m.distance, m.distance, m.distance}));
-      if (const auto sole = field_.sole_material(reach)) {
-        if (*sole == m.material && 1 > m.fraction) return true;
-        continue;
-      }
-      clear(scratch_);
-      field_.measure(reach, scratch_);
-      if (share_of(scratch_, 0, m.material) > m.fraction) return true;
+      if (holds(box, m)) return true;
+      if (m.distance > 0 && holds(inside_domain(grown(box, {m.distance, m.distance, m.distance})), m))
+        return true;
     }
     return false;
+  }
+  [[nodiscard]] bool holds(const Box& box, const AdaptCriterion::Material& m) {
+    if (const auto sole = field_.sole_material(box)) return *sole == m.material && 1 > m.fraction;
+    clear(scratch_);
+    field_.measure(box, scratch_);
+    return share_of(scratch_, 0, m.material) > m.fraction;
   }
   [[nodiscard]] Box inside_domain(Box box) const {
     for (std::size_t d = 0; d < 3; ++d) {
@@ -232,32 +240,31 @@ class Marker {
     return most;
   }
 
+  // Where the two materials with most of the box share it, across the direction in which they change. A box
+  // twice as large tells that direction: in one of which a corner is cut off, its own parts tell little.
   [[nodiscard]] Cut cut_of(const Box& box) {
     clear(scratch_);
-    for (unsigned o = 0; o < 8; ++o) field_.measure(octant(box, o), scratch_);
+    field_.measure(box, scratch_);
     Cut cut;
-    std::vector<std::pair<double, std::int32_t>> total;
-    for (std::size_t e = 0; e < scratch_.material.size(); ++e) {
-      const std::int32_t m = scratch_.material[e];
-      const auto known =
-          std::find_if(total.begin(), total.end(), [m](const auto& t) { return t.second == m; });
-      if (known == total.end())
-        total.emplace_back(-scratch_.value[e], m);
-      else
-        known->first -= scratch_.value[e];
-    }
-    if (total.size() < 2) return cut;
-    std::sort(total.begin(), total.end());  // most first, ties by material
-    cut.a = total[0].second;
-    cut.b = total[1].second;
+    if (scratch_.material.size() < 2) return cut;
+    std::vector<std::pair<double, std::int32_t>> most;
+    for (std::size_t e = 0; e < scratch_.material.size(); ++e)
+      most.emplace_back(-scratch_.value[e], scratch_.material[e]);
+    std::sort(most.begin(), most.end());  // ties by material
+    cut.a = most[0].second;
+    cut.b = most[1].second;
+    const Vec3 size = box.hi - box.lo;
+    const Box around = grown(box, 0.5 * size);
+    clear(scratch_);
+    for (unsigned o = 0; o < 8; ++o) field_.measure(octant(around, o), scratch_);
     Vec3 slope;  // of a - b, per cell
     for (unsigned o = 0; o < 8; ++o)
       for (std::size_t d = 0; d < 3; ++d)
         slope[d] +=
             (o >> d & 1 ? 0.25 : -0.25) * (share_of(scratch_, o, cut.a) - share_of(scratch_, o, cut.b));
     if (!(norm(slope) > 0)) return cut;
-    const Vec3 size = box.hi - box.lo, down = unit(-slope);  // from a to b, in cells
-    const double share = total[0].first / (total[0].first + total[1].first);
+    const Vec3 down = unit(-slope);  // from a to b, in cells
+    const double share = most[0].first / (most[0].first + most[1].first);
     cut.point = 0.5 * (box.lo + box.hi) + scaled(plane_offset(share, down) * down, size);
     cut.normal = unit(scaled(down, {1 / size.x, 1 / size.y, 1 / size.z}));
     cut.exists = true;

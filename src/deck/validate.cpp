@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <filesystem>
 
 #include "deck/value.hpp"
@@ -68,6 +69,10 @@ bool wrong_part(const Deck& deck) {
   return product > deck.num_procs || deck.num_procs % product != 0;
 }
 
+bool coarsens(const Deck& deck) {
+  return deck.adapt_type == kAdaptCoarsen || deck.adapt_type == kAdaptResample;
+}
+
 bool empty_x(const Deck& deck) { return all_given(deck, {"xmin", "xmax"}) && deck.xmin >= deck.xmax; }
 bool empty_y(const Deck& deck) { return all_given(deck, {"ymin", "ymax"}) && deck.ymin >= deck.ymax; }
 bool empty_z(const Deck& deck) { return all_given(deck, {"zmin", "zmax"}) && deck.zmin >= deck.zmax; }
@@ -121,6 +126,19 @@ const std::vector<Rule>& rules() {
        },
        {"pillow", "pillow_curve_layers"},
        "pillow and pillow_curve_layers ask for different numbers of layers"},
+      {[](const Deck& d) {
+         return coarsens(d) && (d.given("stl_file") || d.given("diatom_file"));
+       },
+       {"adapt_type", "stl_file", "diatom_file"},
+       "adapt_type = coarsen and resample need data on a dense grid; shapes are refined by vfrac_average"},
+      {[](const Deck& d) { return coarsens(d) && d.micro_expand > 0; },
+       {"adapt_type", "micro_expand"},
+       "micro_expand adds layers to the grid as it was read; adapt_type must not be coarsen or resample"},
+      {[](const Deck& d) {
+         return !d.adapt_material.empty() && d.adapt_type != kAdaptMaterial && d.adapt_type != kAdaptOff;
+       },
+       {"adapt_material", "adapt_type"},
+       "adapt_material needs adapt_type = material"},
       {[](const Deck& d) { return d.xscale <= 0 || d.yscale <= 0 || d.zscale <= 0 || d.scale <= 0; },
        {"xscale", "yscale", "zscale", "scale"},
        "scale factors must be positive"},
@@ -198,6 +216,41 @@ void refuse_unsupported(const Deck& deck) {
   }
 }
 
+// The numbers of a record: id, levels, fraction, distance and one that Sculpt knows alone.
+struct RecordNumber {
+  std::string_view what;
+  double lo, hi;
+  bool whole;
+  std::string_view expected;
+};
+constexpr RecordNumber kMaterialRecord[] = {
+    {"the id", 0, 2147483647.0, true, "a whole number from 0 to 2147483647"},
+    {"the levels", 0, 20, true, "a whole number from 0 to 20"},
+    {"the volume fraction", 0, 1, false, "a number from 0 to 1"},
+    {"the distance", 0, HUGE_VAL, false, "a length that is not negative"},
+};
+constexpr std::size_t kMostRecordNumbers = 5;
+
+void check_adapt_materials(const Deck& deck) {
+  for (std::size_t r = 0; r < deck.adapt_material.size(); ++r) {
+    const std::vector<double>& numbers = deck.adapt_material[r].numbers;
+    const std::string begin =
+        fmt::format("option 'adapt_material' ({}): record {} ({:g})",
+                    deck.given_options.place("adapt_material"), r + 1, fmt::join(numbers, " "));
+    if (numbers.size() > kMostRecordNumbers)
+      throw Error(fmt::format("{} has {} numbers; expected at most 5: id, levels, volume fraction, distance "
+                              "and one without effect",
+                              begin, numbers.size()));
+    for (std::size_t n = 0; n < std::min(numbers.size(), std::size(kMaterialRecord)); ++n) {
+      const RecordNumber& must = kMaterialRecord[n];
+      const bool whole = !must.whole || numbers[n] == std::floor(numbers[n]);
+      if (!(numbers[n] >= must.lo && numbers[n] <= must.hi && whole))
+        throw Error(
+            fmt::format("{}: {} must be {}, found {:g}", begin, must.what, must.expected, numbers[n]));
+    }
+  }
+}
+
 void redefault(Deck& deck, std::string_view option, auto& field, auto value) {
   if (deck.given(option) || field == value) return;
   field = value;
@@ -227,6 +280,7 @@ void apply_input_defaults(Deck& deck) {
 
 void validate(const Deck& deck) {
   refuse_unsupported(deck);
+  check_adapt_materials(deck);
   for (const Rule& rule : rules()) {
     if (!rule.broken(deck)) continue;
     throw Error(std::string(rule.sentence) + describe(deck, rule.options, rule.tell));

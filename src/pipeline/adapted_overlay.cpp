@@ -19,6 +19,7 @@ namespace sculpt {
 namespace {
 
 constexpr double kFractionThreshold = 1e-4;  // of vfrac_average, coarsen and material: any interface
+constexpr double kMostBlocks = 0x1p34;       // of the finest level but one: 2 GB
 constexpr double kLengthThreshold = 0.25;  // of the types that measure distances: of the cell size / levels^2
 
 bool coarsens(const Deck& deck) {
@@ -29,6 +30,10 @@ const char* type_name(const Deck& deck) {
   for (const EnumValue& value : find_option("adapt_type")->values)
     if (value.number == deck.adapt_type) return value.name.data();
   return "";
+}
+
+std::string place_of(const Deck& deck, const char* option) {
+  return deck.given(option) ? deck.given_options.place(option) : "not given";
 }
 
 // The grid whose cells hold 2^levels cells of the data per axis, and how many cells of the data its last
@@ -51,7 +56,7 @@ CoarseGrid coarse_grid(const Deck& deck, const Grid& dense, const Log& log) {
       throw Error(fmt::format(
           "option 'adapt_levels' ({}): {} cells along {} cannot be halved {} times; give fewer levels or "
           "adapt_remainder = keep",
-          deck.given_options.place("adapt_levels"), n, "xyz"[d], deck.adapt_levels));
+          place_of(deck, "adapt_levels"), n, "xyz"[d], deck.adapt_levels));
     if (over > 0)
       rest += fmt::format("{}{} of {} cells along {}", rest.empty() ? "" : ", ", over, n, "xyz"[d]);
     std::vector<double>& planes = coarse.grid.planes[d];
@@ -133,6 +138,7 @@ class Adapter {
   Overlay refined() {
     refuse_odd_periods();
     AdaptCriterion criterion = criterion_of();
+    refuse_many_blocks();
     Forest forest(grid_.cells, levels_, periodic_, missing_);
     const CartesianParts cut =
         cut_grid(forest.blocks(0), comm_.size(), {deck_.iproc, deck_.jproc, deck_.kproc});
@@ -232,7 +238,7 @@ class Adapter {
       throw Error(fmt::format(
           "option 'adapt_type' ({}): {} measures the distance from facets or shapes, but the input has "
           "none; use surface_to_surface or vfrac_average",
-          deck_.given_options.place("adapt_type"), type_name(deck_)));
+          place_of(deck_, "adapt_type"), type_name(deck_)));
     if (source_.is_data())
       log_.line(
           "WARNING: {}: the input is data on the cells of the grid, which has no finer surface; nothing is "
@@ -240,6 +246,17 @@ class Adapter {
           "with vfrac_average or material",
           type_name(deck_));
     return c;
+  }
+
+  // Every rank holds a bit for every block that there could be.
+  void refuse_many_blocks() const {
+    const double blocks = std::ldexp(static_cast<double>(grid_.cell_count()), 3 * levels_ - 6);
+    if (blocks <= kMostBlocks) return;
+    throw Error(fmt::format(
+        "option 'adapt_levels' ({}): the {} x {} x {} cells of the grid cannot be halved {} times, it would "
+        "take {:.3g} GB on every rank to keep track; give fewer levels or a coarser grid",
+        place_of(deck_, "adapt_levels"), grid_.cells[0], grid_.cells[1], grid_.cells[2], levels_,
+        blocks / 7e9));
   }
 
   // The records of adapt_material, now that the materials are known.
@@ -251,7 +268,7 @@ class Adapter {
       const auto found = std::find(table.block_id.begin(), table.block_id.end(), id);
       if (found == table.block_id.end())
         throw Error(fmt::format("option 'adapt_material' ({}): no material with id {} in the input",
-                                deck_.given_options.place("adapt_material"), n[0]));
+                                place_of(deck_, "adapt_material"), n[0]));
       c.materials.push_back({static_cast<std::int32_t>(found - table.block_id.begin()),
                              n.size() > 1 ? static_cast<int>(n[1]) : deck_.adapt_levels,
                              n.size() > 2 ? n[2] : kFractionThreshold, n.size() > 3 ? n[3] : 0.0});
@@ -267,7 +284,8 @@ class Adapter {
     if (deck_.adapt_type == kAdaptMaterial)
       for (const NumberRecord& record : deck_.adapt_material)
         if (record.numbers.size() > 3) reach = std::max(reach, record.numbers[3] / std::min({h.x, h.y, h.z}));
-    return 2 + static_cast<std::int64_t>(std::ceil(reach));
+    const std::int64_t all = std::max({grid_.cells[0], grid_.cells[1], grid_.cells[2]});
+    return 2 + static_cast<std::int64_t>(std::ceil(std::min(reach, static_cast<double>(all))));
   }
 
   Material read(const BlockParts& parts) {
@@ -371,7 +389,7 @@ Overlay read_adapted(const Comm& comm, const Deck& deck, MaterialSource& source,
   if (!source.is_data())
     throw Error(fmt::format(
         "option 'adapt_type' ({}): {} needs data on a dense grid; shapes are refined by vfrac_average",
-        deck.given_options.place("adapt_type"), type_name(deck)));
+        place_of(deck, "adapt_type"), type_name(deck)));
   Adapter adapter(comm, deck, source, coarse_grid(deck, grid, log), log, stages);
   return deck.adapt_type == kAdaptCoarsen ? adapter.refined() : adapter.resampled();
 }

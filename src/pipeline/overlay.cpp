@@ -2,6 +2,7 @@
 
 #include "pipeline/adapted_overlay.hpp"
 #include "pipeline/console.hpp"
+#include "pipeline/idle_options.hpp"
 #include "pipeline/layers.hpp"
 #include "pipeline/periodicity.hpp"
 #include "sculpt/distribute/cartesian.hpp"
@@ -67,6 +68,7 @@ Overlay read_uniform(const Comm& comm, const Deck& deck, MaterialSource& source,
 
 Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages) {
   const auto source = open_source(comm, deck, log);
+  for (const std::string& idle : idle_adapt_options(deck)) log.line("WARNING: {}", idle);
   const Grid grid = overlay_grid(deck, source->grid());
   return is_adapted(deck) ? read_adapted(comm, deck, *source, grid, log, stages)
                           : read_uniform(comm, deck, *source, grid, log, stages);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "pipeline/adapted_overlay.hpp"
 #include "pipeline/classify.hpp"
 #include "pipeline/console.hpp"
 #include "pipeline/interface_geometry.hpp"
@@ -175,13 +176,23 @@ struct Meshed {
   InterfaceTrack track;  // empty in a mesh that keeps the shape of the cells
 };
 
+// The cells of a refined grid with valid transitions; cubes stay cubes.
+HexMesh smooth_transitions(HexMesh cells) {
+  Geometry none;
+  none.index.assign(cells.position.size(), kNone);
+  smooth_mesh(cells, none, {}, Log(false));
+  return cells;
+}
+
 // The hexes of the cells as they are, without what is left out.
 Meshed stair_mesh(const Comm& comm, const Deck& deck, const Overlay& overlay,
                   const std::vector<std::uint8_t>& drop, const Log& log, Stages& stages) {
   if (layer_plan(deck).any())
     log.line("WARNING: stair keeps the cells as they are; the pillow options have no effect");
   const std::vector<std::int32_t> none(drop.size(), -1);
-  HexMesh mesh = pillow(comm, overlay.cells, overlay.neighbours, none, drop, {}).mesh;
+  HexMesh mesh = pillow(comm, is_adapted(deck) ? smooth_transitions(overlay.cells) : overlay.cells,
+                        overlay.neighbours, none, drop, {})
+                     .mesh;
   stages.end("generate hexes");
   log.line("(9/9) begin smoothing...");
   return {std::move(mesh), 1, {}, {}};
@@ -324,10 +335,7 @@ bool exports_grid(const Deck& deck) { return deck.adapt_export && deck.adapt_typ
 // The cells of the overlay with their materials as a mesh of its own (adapt_export). Transitions are
 // smoothed, so that it is a valid mesh.
 void write_grid(const Comm& comm, const Deck& deck, const Overlay& overlay, const Log& log, Stages& stages) {
-  HexMesh cells = overlay.cells;
-  Geometry none;
-  none.index.assign(cells.position.size(), kNone);
-  smooth_mesh(cells, none, {}, Log(false));
+  HexMesh cells = smooth_transitions(overlay.cells);
   transform(cells, scale_of(deck), {deck.xtranslate, deck.ytranslate, deck.ztranslate});
   WriteOptions options = write_options(deck, overlay.materials, cells);
   options.base = export_name(deck);

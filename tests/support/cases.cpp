@@ -21,8 +21,9 @@ void add_two(Fractions& f, double of_one) {
 
 double cube(double x) { return x * x * x; }
 
-// Part of the unit cube at `corner` with n.x > distance: the tetrahedron formula, summed over the corners of
-// the cube.
+}  // namespace
+
+// The tetrahedron formula, summed over the corners of the cube.
 double part_above(const Vec3& corner, Vec3 n, double distance) {
   double d = distance - dot(n, corner);
   for (std::size_t a = 0; a < 3; ++a)
@@ -39,8 +40,6 @@ double part_above(const Vec3& corner, Vec3 n, double distance) {
   const double above = 1 - below / (6 * n.x * n.y * n.z);
   return above < 1e-12 ? 0 : above > 1 - 1e-12 ? 1 : above;
 }
-
-}  // namespace
 
 Case periodic(Case input, const std::array<bool, 3>& axes) {
   input.periodic = axes;

@@ -48,6 +48,8 @@ struct Case {
 [[nodiscard]] Case two_phase_fractions(const Index3& cells, std::uint64_t seed);
 // A ball of material 1 in material 0, in cells; fractions from 8^3 points per cell.
 [[nodiscard]] Case ball(const Index3& cells, const Vec3& centre, double radius);
+// Part of the unit cube at `corner` where n.x > distance; no component of n near 0.
+[[nodiscard]] double part_above(const Vec3& corner, Vec3 n, double distance);
 // Material 1 where normal . x > distance, exact fractions. Unit cells; no component of the unit normal near
 // 0.
 [[nodiscard]] Case half_space(const Index3& cells, const Vec3& normal, double distance);

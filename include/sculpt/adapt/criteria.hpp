@@ -9,8 +9,9 @@
 namespace sculpt {
 
 enum class AdaptMeasure {
-  kFractions,  // the fractions of the eight parts of a cell differ from their average, or from those just
-               // outside
+  // The fractions of the eight parts of a cell differ from their average, or those just inside one of its
+  // sides from those just outside.
+  kFractions,
   kFacetToSurface,    // distance of the geometry from the plane that stands for it in the cell
   kSurfaceToFacet,    // distance of that plane from the geometry
   kSurfaceToSurface,  // distance of the planes in the parts of the cell from its plane

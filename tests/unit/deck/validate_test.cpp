@@ -158,6 +158,68 @@ TEST(Validate, NeedsPositiveScales) {
             "scale factors must be positive; given: yscale = 0 (line 6 of deck.i)");
 }
 
+TEST(Validate, AdaptMaterialRecordsMakeSense) {
+  const std::string type = kSpn + "adapt_type = material\nadapt_material = ";  // line 7
+  for (const char* record : {"0", "10000 2 0.0001 0 0", "3 0 0 0", "3 20 1 1e6 -7", "2147483647"})
+    EXPECT_EQ(verdict(type + record), "no error") << record;
+  const std::string begin = "option 'adapt_material' (line 7 of deck.i): record 1 (";
+  EXPECT_EQ(verdict(type + "-1"),
+            begin + "-1): the id must be a whole number from 0 to 2147483647, found -1");
+  EXPECT_EQ(verdict(type + "1.5 2"),
+            begin + "1.5 2): the id must be a whole number from 0 to 2147483647, found 1.5");
+  for (const char* levels : {"-1", "21", "1.5"})
+    EXPECT_EQ(verdict(type + "3 " + levels),
+              begin + "3 " + levels + "): the levels must be a whole number from 0 to 20, found " + levels);
+  for (const char* fraction : {"-0.1", "1.1"})
+    EXPECT_EQ(verdict(type + "3 2 " + fraction), begin + "3 2 " + fraction +
+                                                     "): the volume fraction must be a number from 0 to 1, "
+                                                     "found " +
+                                                     fraction);
+  EXPECT_EQ(verdict(type + "3 2 0 -1"),
+            begin + "3 2 0 -1): the distance must be a length that is not negative, found -1");
+  EXPECT_EQ(verdict(type + "3 2 0 1 0 9"),
+            begin +
+                "3 2 0 1 0 9) has 6 numbers; expected at most 5: id, levels, volume fraction, distance "
+                "and one without effect");
+  EXPECT_EQ(verdict(type + "3\nadapt_material = 4 77"),
+            "option 'adapt_material' (line 8 of deck.i): record 2 (4 77): the levels must be a whole number "
+            "from 0 to 20, found 77");
+}
+
+TEST(Validate, AdaptMaterialBelongsToItsType) {
+  EXPECT_EQ(verdict(kSpn + "adapt_material = 1"), "no error");  // idle, which the console tells
+  EXPECT_EQ(verdict(kSpn + "adapt_material = 1\nadapt_type = material"), "no error");
+  EXPECT_EQ(verdict(kSpn + "adapt_material = 1\nadapt_type = vfrac_average"),
+            "adapt_material needs adapt_type = material; given: adapt_material = 1 (line 6 of deck.i), "
+            "adapt_type = vfrac_average (line 7 of deck.i)");
+}
+
+TEST(Validate, CoarseningNeedsDenseData) {
+  const std::string shapes =
+      "diatom_file = a\nnelx=1\nnely=1\nnelz=1\nxmin=0\nymin=0\nzmin=0\nxmax=1\nymax=1\nzmax=1\n";
+  for (const char* type : {"coarsen", "resample"}) {
+    const std::string line = std::string("adapt_type = ") + type;
+    EXPECT_EQ(verdict(kSpn + line), "no error");
+    EXPECT_EQ(verdict("input_micro = a\n" + line), "no error");
+    EXPECT_EQ(verdict(shapes + line),
+              "adapt_type = coarsen and resample need data on a dense grid; shapes are refined by "
+              "vfrac_average; given: " +
+                  line + " (line 12 of deck.i), diatom_file = a (line 2 of deck.i)");
+    EXPECT_EQ(verdict(kSpn + line + "\nmicro_expand = 2"),
+              "micro_expand adds layers to the grid as it was read; adapt_type must not be coarsen or "
+              "resample; given: " +
+                  line + " (line 6 of deck.i), micro_expand = 2 (line 7 of deck.i)");
+    EXPECT_EQ(verdict(kSpn + line + "\nmicro_expand = 0"), "no error");
+  }
+  EXPECT_EQ(verdict(shapes + "adapt_type = vfrac_average"), "no error");
+  EXPECT_EQ(verdict(kSpn + "adapt_type = vfrac_average\nmicro_expand = 2"), "no error");
+}
+
+TEST(Validate, AdaptThresholdMayBeZero) {
+  EXPECT_EQ(verdict(kSpn + "adapt_type = vfrac_average\nadapt_threshold = 0"), "no error");
+  EXPECT_NE(verdict(kSpn + "adapt_type = vfrac_average\nadapt_threshold = -1"), "no error");
+}
+
 TEST(InputDefaults, SmoothVoxelsWithoutProjection) {
   Deck deck = deck_of(kSpn);
   apply_input_defaults(deck);

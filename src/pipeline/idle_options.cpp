@@ -1,0 +1,66 @@
+#include "pipeline/idle_options.hpp"
+
+#include <fmt/core.h>
+
+#include <string_view>
+
+#include "sculpt/deck/options.hpp"
+
+namespace sculpt {
+namespace {
+
+// Which options have an effect with a type of refinement.
+struct Use {
+  std::string_view option;
+  bool (*has_effect)(int adapt_type);
+};
+
+bool refines(int type) { return type != kAdaptOff && type != kAdaptResample; }
+
+constexpr Use kUses[] = {
+    {"adapt_threshold", [](int type) { return refines(type) && type != kAdaptMaterial; }},
+    {"adapt_levels", [](int type) { return type != kAdaptOff; }},
+    {"adapt_material", [](int type) { return type == kAdaptMaterial; }},
+    {"adapt_remainder", [](int type) { return type == kAdaptCoarsen || type == kAdaptResample; }},
+    {"adapt_export", [](int type) { return type != kAdaptOff; }},
+    {"adapt_non_manifold", refines},
+    {"adapt_load_balance", refines},
+    {"adapt_memory_stats", refines},
+};
+
+// A flag that is off asks for nothing.
+bool asks(const Deck& deck, std::string_view option) {
+  if (option == "adapt_export") return deck.adapt_export;
+  if (option == "adapt_non_manifold") return deck.adapt_non_manifold;
+  if (option == "adapt_load_balance") return deck.adapt_load_balance;
+  if (option == "adapt_memory_stats") return deck.adapt_memory_stats;
+  return deck.given(option);
+}
+
+std::string_view type_name(const Deck& deck) {
+  for (const EnumValue& value : find_option("adapt_type")->values)
+    if (value.number == deck.adapt_type) return value.name;
+  return "";
+}
+
+}  // namespace
+
+std::vector<std::string> idle_adapt_options(const Deck& deck) {
+  std::vector<std::string> told;
+  const bool off = deck.adapt_type != kAdaptOff && deck.adapt_levels == 0;
+  if (off) told.push_back("adapt_levels = 0 leaves the grid as it is; no effect: adapt_type");
+  std::string idle;
+  for (const Use& use : kUses) {
+    // Without levels: told already; the grid is written all the same.
+    const bool apart = off && (use.option == "adapt_levels" || use.option == "adapt_export");
+    if (!asks(deck, use.option) || apart || (!off && use.has_effect(deck.adapt_type))) continue;
+    if (off)
+      told.back() += fmt::format(", {}", use.option);
+    else
+      idle += fmt::format("{}{}", idle.empty() ? "" : ", ", use.option);
+  }
+  if (!idle.empty()) told.push_back(fmt::format("adapt_type is {}; no effect: {}", type_name(deck), idle));
+  return told;
+}
+
+}  // namespace sculpt

@@ -61,7 +61,10 @@ class Marker {
       : grid_(grid), field_(field, grid, forest.periodic()), criterion_(criterion), forest_(forest) {}
 
   void visit(int level, const Index3& cell) {
-    if (level == forest_.levels() || !wants(level, cell)) return;
+    const Index3 n = forest_.cells(level);
+    if (level == forest_.levels() || cell[0] >= n[0] || cell[1] >= n[1] || cell[2] >= n[2] ||
+        !wants(level, cell))
+      return;
     forest_.refine_cell(level, cell);
     for (unsigned o = 0; o < 8; ++o)
       visit(level + 1, {2 * cell[0] + (o & 1), 2 * cell[1] + (o >> 1 & 1), 2 * cell[2] + (o >> 2)});

@@ -14,8 +14,9 @@ Index3 sum(const Index3& a, const std::array<int, 3>& b) { return {a[0] + b[0], 
 
 }  // namespace
 
-Forest::Forest(const Index3& cells, int levels, const std::array<bool, 3>& periodic)
-    : cells_(cells), periodic_(periodic) {
+Forest::Forest(const Index3& cells, int levels, const std::array<bool, 3>& periodic, const Index3& missing)
+    : levels_(levels), periodic_(periodic) {
+  for (std::size_t d = 0; d < 3; ++d) finest_[d] = (cells[d] << levels) - missing[d];
   std::size_t words = 0;
   for (int l = 0; l < levels; ++l) {
     const Index3 b = blocks(l);
@@ -23,9 +24,28 @@ Forest::Forest(const Index3& cells, int levels, const std::array<bool, 3>& perio
     words += (static_cast<std::size_t>(b[0] * b[1] * b[2]) + 63) / 64;
   }
   words_.assign(words, 0);
+  for (std::size_t d = 0; d < 3; ++d) refine_across_end(d);
 }
 
-Index3 Forest::cells(int level) const { return {cells_[0] << level, cells_[1] << level, cells_[2] << level}; }
+// Whether cells of a level fit between the ends of an axis.
+bool Forest::fits(int level, std::size_t axis) const {
+  return finest_[axis] % (std::int64_t{1} << (levels_ - level)) == 0;
+}
+
+void Forest::refine_across_end(std::size_t axis) {
+  for (int l = 0; l < levels_ && !fits(l, axis); ++l) {
+    IndexBox layer = whole(blocks(l));
+    layer.lo[axis] = layer.hi[axis] - 1;
+    for (std::int64_t b = 0; b < layer.size(); ++b) refine_block(l, layer.cell(b));
+  }
+}
+
+Index3 Forest::cells(int level) const {
+  Index3 n;
+  const std::int64_t size = std::int64_t{1} << (levels_ - level);
+  for (std::size_t d = 0; d < 3; ++d) n[d] = (finest_[d] + size - 1) / size;
+  return n;
+}
 Index3 Forest::blocks(int level) const {
   const Index3 n = cells(level);
   return {half_up(n[0]), half_up(n[1]), half_up(n[2])};
@@ -33,12 +53,12 @@ Index3 Forest::blocks(int level) const {
 
 // Brings a block into the grid; false where there is none.
 bool Forest::wrap(int level, Index3& block) const {
-  const Index3 n = blocks(level), whole = cells(level);
+  const Index3 n = blocks(level), in_cells = cells(level);
   for (std::size_t d = 0; d < 3; ++d) {
     if (block[d] >= 0 && block[d] < n[d]) continue;
     if (periodic_[d])
       block[d] = (block[d] % n[d] + n[d]) % n[d];
-    else if (whole[d] % 2 != 0 && block[d] == n[d])
+    else if (in_cells[d] % 2 != 0 && block[d] == n[d] && fits(level, d))
       block[d] = n[d] - 2;  // the grid ends at the middle of block n-1: as if mirrored there
     if (block[d] < 0 || block[d] >= n[d]) return false;
   }
@@ -171,10 +191,10 @@ std::uint32_t Forest::pattern(int level, const Index3& block) const {
 }
 
 unsigned Forest::ends(int level, const Index3& block) const {
-  if (level > 0) return 0;
+  const Index3 n = cells(level);
   unsigned bits = 0;
   for (std::size_t d = 0; d < 3; ++d)
-    if (cells_[d] % 2 != 0 && block[d] == cells_[d] / 2) bits |= 1U << d;
+    if (n[d] % 2 != 0 && block[d] == n[d] / 2 && fits(level, d)) bits |= 1U << d;
   return bits;
 }
 
@@ -186,13 +206,12 @@ void Forest::for_each_leaf(const Index3& base_block,
 void Forest::visit_leaves(int level, const Index3& block,
                           const std::function<void(int, const Index3&)>& visit) const {
   if (!refined(level, block)) return visit(level, block);
-  const unsigned end = ends(level, block);
-  for (unsigned octant = 0; octant < 8; ++octant)
-    if ((octant & end) == 0)
-      visit_leaves(
-          level + 1,
-          {2 * block[0] + (octant & 1), 2 * block[1] + (octant >> 1 & 1), 2 * block[2] + (octant >> 2)},
-          visit);
+  const Index3 n = cells(level);
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    const Index3 cell{2 * block[0] + (octant & 1), 2 * block[1] + (octant >> 1 & 1),
+                      2 * block[2] + (octant >> 2)};
+    if (cell[0] < n[0] && cell[1] < n[1] && cell[2] < n[2]) visit_leaves(level + 1, cell, visit);
+  }
 }
 
 }  // namespace sculpt

@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::int64_t kCodes =
     256;  // of the nodes at one position: itself, or the n-th inside the block there
+constexpr std::int64_t kFinest =
+    4;  // units per finest cell: transitions of the level before need halves of halves
 constexpr std::uint8_t kUnset = 255;  // level of a node that no hex was seen at yet
 
 // Where a coordinate in cells of the grid lies, between its planes.
@@ -27,10 +29,12 @@ double coordinate(const std::vector<double>& planes, double cells) {
 
 class Builder {
  public:
-  Builder(const Comm& comm, const Grid& grid, const Forest& forest, const BlockParts& parts, int layers)
+  Builder(const Comm& comm, const Grid& grid, const Forest& forest, const BlockParts& parts, int layers,
+          const std::optional<Vec3>& high)
       : comm_(comm), grid_(grid), forest_(forest), parts_(parts), layers_(layers) {
     const std::array<bool, 3>& axes = forest.periodic();
     periodic_ = axes[0] || axes[1] || axes[2];
+    for (std::size_t d = 0; d < 3; ++d) high_[d] = high ? (*high)[d] : grid.planes[d].back();
     unit_ = std::int64_t{4}
             << forest.levels();  // per cell of the grid: an eighth of the finest cell in transition
     edge_ = 2 * unit_;
@@ -269,13 +273,16 @@ class Builder {
     HexMesh& m = out_.cells;
     Vec3 x;
     unsigned sides = 0;
+    const Index3 finest = forest_.cells(forest_.levels());
     for (std::size_t d = 0; d < 3; ++d) {
       const double in_units = static_cast<double>(p.base[d] * edge_ + p.low[d]) +
                               p.shape->node[n][d] * static_cast<double>(p.step);
-      if (!forest_.periodic()[d] && in_units == 0) sides |= 1U << (2 * d);
-      if (!forest_.periodic()[d] && in_units == static_cast<double>(grid_.cells[d] * unit_))
-        sides |= 2U << (2 * d);
       x[d] = coordinate(grid_.planes[d], in_units / static_cast<double>(unit_));
+      if (forest_.periodic()[d]) continue;
+      if (in_units == 0) sides |= 1U << (2 * d);
+      if (in_units != static_cast<double>(kFinest * finest[d])) continue;
+      sides |= 2U << (2 * d);
+      x[d] = high_[d];
     }
     Index3 block;
     const GlobalId key = key_of(p, n, block);
@@ -387,6 +394,7 @@ class Builder {
   const BlockParts& parts_;
   int layers_;
   bool periodic_;                                     // in any axis
+  Vec3 high_;                                         // corner of the domain
   std::int64_t unit_ = 0, edge_ = 0, per_block_ = 0;  // per cell; per block; keys per block
   Index3 margin_{0, 0, 0}, extended_{0, 0, 0};        // blocks of images per side; blocks that have keys
   IndexBox region_;                                   // blocks of level 0 that are looked at
@@ -400,8 +408,8 @@ class Builder {
 }  // namespace
 
 LeafMesh leaf_mesh(const Comm& comm, const Grid& grid, const Forest& forest, const BlockParts& parts,
-                   int layers) {
-  return Builder(comm, grid, forest, parts, layers).run();
+                   int layers, const std::optional<Vec3>& high) {
+  return Builder(comm, grid, forest, parts, layers, high).run();
 }
 
 std::int64_t hexes_in(const Forest& forest, const Index3& base_block) {

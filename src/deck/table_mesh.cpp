@@ -37,7 +37,7 @@ constexpr EnumValue kAdaptTypes[] = {{"off", kAdaptOff},
                                      {"coarsen", kAdaptCoarsen},
                                      {"resample", kAdaptResample},
                                      {"material", kAdaptMaterial}};
-constexpr EnumValue kRemainders[] = {{"drop", kRemainderDrop}, {"pad", kRemainderPad}};
+constexpr EnumValue kRemainders[] = {{"drop", kRemainderDrop}, {"keep", kRemainderKeep}};
 
 constexpr Group kV = Group::kOverlay;
 constexpr std::string_view kNoCount = "none", kNoBound = "from the input";
@@ -502,8 +502,10 @@ constexpr OptionSpec kAdaptOptions[] = {
      .slot = &Deck::adapt_remainder,
      .help = "What becomes of odd cells when coarsening",
      .about = "Dense data whose cells are not a multiple of 2^adapt_levels: the rest at the high sides is "
-              "dropped, or the "
-              "grid is filled up with copies of the last layer (pad). An option of this program.",
+              "dropped, as real "
+              "Sculpt does, or kept: coarsen keeps small cells there, resample makes the last cells thinner. "
+              "An option of "
+              "this program.",
      .supported = true,
      .values = kRemainders},
     {.name = "adapt_export",

@@ -37,39 +37,45 @@ std::string place_of(const Deck& deck, const char* option) {
   return deck.given(option) ? deck.given_options.place(option) : "not given";
 }
 
-// The grid whose cells hold 2^levels cells of the data per axis.
-Grid coarse_grid(const Deck& deck, const Grid& dense, const Log& log) {
-  const std::int64_t step = std::int64_t{1} << deck.adapt_levels;
+// The grid whose cells hold 2^levels cells of the data per axis, and how many cells of the data its last
+// cells lack.
+struct CoarseGrid {
   Grid grid;
+  Index3 missing{0, 0, 0};
+  Vec3 high;  // corner of the domain
+};
+CoarseGrid coarse_grid(const Deck& deck, const Grid& dense, const Log& log) {
+  const std::int64_t step = std::int64_t{1} << deck.adapt_levels;
+  const bool keep = deck.adapt_remainder == kRemainderKeep;
+  CoarseGrid coarse;
   std::string rest;
   for (std::size_t d = 0; d < 3; ++d) {
     const std::int64_t n = dense.cells[d], over = n % step;
-    grid.cells[d] = n / step + (deck.adapt_remainder == kRemainderPad && over > 0 ? 1 : 0);
-    if (grid.cells[d] == 0)
+    std::int64_t& cells = coarse.grid.cells[d];
+    cells = n / step + (keep && over > 0 ? 1 : 0);
+    if (cells == 0)
       throw Error(fmt::format(
           "option 'adapt_levels' ({}): {} cells along {} cannot be halved {} times; give fewer levels or "
-          "adapt_remainder = pad",
+          "adapt_remainder = keep",
           place_of(deck, "adapt_levels"), n, "xyz"[d], deck.adapt_levels));
     if (over > 0)
-      rest += fmt::format("{}{} of {} cells along {}", rest.empty() ? "" : ", ",
-                          deck.adapt_remainder == kRemainderPad ? step - over : over, n, "xyz"[d]);
-    const std::vector<double>& planes = dense.planes[d];
-    for (std::int64_t i = 0; i <= grid.cells[d]; ++i) {
-      const std::int64_t at = i * step;
-      grid.planes[d].push_back(at <= n ? planes[static_cast<std::size_t>(at)]
-                                       : planes.back() + static_cast<double>(at - n) * dense.cell_size()[d]);
-    }
+      rest += fmt::format("{}{} of {} cells along {}", rest.empty() ? "" : ", ", over, n, "xyz"[d]);
+    std::vector<double>& planes = coarse.grid.planes[d];
+    for (std::int64_t i = 0; i <= n / step; ++i)
+      planes.push_back(dense.planes[d][static_cast<std::size_t>(i * step)]);
+    coarse.high[d] = planes.back();
+    if (!keep || over == 0) continue;
+    coarse.high[d] = dense.planes[d].back();
+    const double size = dense.cell_size()[d];
+    const bool thinner = deck.adapt_type == kAdaptResample;
+    planes.push_back(thinner ? dense.planes[d].back() : planes.back() + static_cast<double>(step) * size);
+    coarse.missing[d] = thinner ? 0 : step - over;
   }
-  if (!rest.empty() && deck.adapt_remainder == kRemainderPad)
-    log.line("{}: the grid is not a multiple of {} cells; copies of the last layers fill it up: {}",
-             type_name(deck), step, rest);
-  else if (!rest.empty())
-    log.line(
-        "WARNING: {}: the grid is not a multiple of {} cells; dropped at the high sides: {} (adapt_remainder "
-        "= pad "
-        "keeps them)",
-        type_name(deck), step, rest);
-  return grid;
+  if (!rest.empty())
+    log.line("{}{}: the grid is not a multiple of {} cells; {} at the high sides: {}{}",
+             keep ? "" : "WARNING: ", type_name(deck), step, keep ? "kept" : "dropped", rest,
+             keep ? "" : " (adapt_remainder = keep keeps them)");
+  return coarse;
 }
 
 // What a rank must know of the source for a box of cells of the grid and `margin` cells around it.
@@ -116,12 +122,14 @@ struct Material {
 
 class Adapter {
  public:
-  Adapter(const Comm& comm, const Deck& deck, MaterialSource& source, Grid grid, const Log& log,
+  Adapter(const Comm& comm, const Deck& deck, MaterialSource& source, CoarseGrid grid, const Log& log,
           Stages& stages)
       : comm_(comm),
         deck_(deck),
         source_(source),
-        grid_(std::move(grid)),
+        grid_(std::move(grid.grid)),
+        missing_(grid.missing),
+        high_(grid.high),
         log_(log),
         stages_(stages),
         layers_(layer_plan(deck).ghost_layers()) {
@@ -132,7 +140,7 @@ class Adapter {
     refuse_odd_periods();
     AdaptCriterion criterion = criterion_of();
     refuse_many_blocks();
-    Forest forest(grid_.cells, levels_, periodic_);
+    Forest forest(grid_.cells, levels_, periodic_, missing_);
     const CartesianParts cut =
         cut_grid(forest.blocks(0), comm_.size(), {deck_.iproc, deck_.jproc, deck_.kproc});
     print_decomposition(log_, cut);
@@ -154,7 +162,7 @@ class Adapter {
       material = read(parts);
     }
     stages_.end("choose cells to refine");
-    LeafMesh mesh = leaf_mesh(comm_, grid_, forest, parts, layers_);
+    LeafMesh mesh = leaf_mesh(comm_, grid_, forest, parts, layers_, high_);
     tell(mesh);
     stages_.end("refine");
     return overlay(std::move(mesh), material);
@@ -191,7 +199,7 @@ class Adapter {
   // Cells are refined in pairs, which must meet across the ends.
   void refuse_odd_periods() const {
     for (std::size_t d = 0; d < 3; ++d)
-      if (periodic_[d] && grid_.cells[d] % 2 != 0)
+      if (periodic_[d] && (grid_.cells[d] % 2 != 0 || missing_[d] != 0))
         throw Error(fmt::format("periodic: a refined grid needs an even number of cells along {}, found {}{}",
                                 "xyz"[d], grid_.cells[d], coarsens(deck_) ? " coarse ones" : ""));
   }
@@ -368,6 +376,8 @@ class Adapter {
   const Deck& deck_;
   MaterialSource& source_;
   Grid grid_;
+  Index3 missing_;  // cells of the finest level that its last cells lack
+  Vec3 high_;       // corner of the domain
   const Log& log_;
   Stages& stages_;
   int layers_, levels_ = 0;
@@ -378,7 +388,10 @@ class Adapter {
 
 Overlay read_adapted(const Comm& comm, const Deck& deck, MaterialSource& source, const Grid& grid,
                      const Log& log, Stages& stages) {
-  if (!coarsens(deck)) return Adapter(comm, deck, source, grid, log, stages).refined();
+  if (!coarsens(deck)) {
+    const Vec3 high{grid.planes[0].back(), grid.planes[1].back(), grid.planes[2].back()};
+    return Adapter(comm, deck, source, {grid, {0, 0, 0}, high}, log, stages).refined();
+  }
   if (!source.is_data())
     throw Error(fmt::format(
         "option 'adapt_type' ({}): {} needs data on a dense grid; shapes are refined by vfrac_average",

@@ -129,11 +129,11 @@ TEST_F(Adapt, CoarsenedVoxels) {
   EXPECT_EQ(width(dropped.x), 12);
   EXPECT_EQ(width(dropped.y), 8);
   EXPECT_EQ(width(dropped.z), 8);
-  const RankMesh padded = expect_refined(voxels, "adapt_type = coarsen\nadapt_remainder = pad\n", kPair);
-  EXPECT_NE(first_console().find("copies of the last layers fill it up"), std::string::npos);
-  EXPECT_EQ(width(padded.x), 16);
-  EXPECT_EQ(width(padded.y), 12);
-  EXPECT_EQ(width(padded.z), 12);
+  const RankMesh kept = expect_refined(voxels, "adapt_type = coarsen\nadapt_remainder = keep\n", kPair);
+  EXPECT_NE(first_console().find("kept at the high sides"), std::string::npos);
+  EXPECT_EQ(width(kept.x), 13);
+  EXPECT_EQ(width(kept.y), 10);
+  EXPECT_EQ(width(kept.z), 9);
 }
 
 // Where a cell of three voxels is all that differs, a threshold lets it go.
@@ -155,7 +155,7 @@ TEST_F(Adapt, ResampledVoxels) {
       expect_same(odd_grains(), "adapt_type = resample\nadapt_levels = 1\nstair = fast\n", {2, 3, 5, 8});
   EXPECT_EQ(hexes_of(mesh), 6 * 5 * 4);
   EXPECT_EQ(width(mesh.x), 12);
-  expect_same(odd_grains(), "adapt_type = resample\nadapt_levels = 1\nadapt_remainder = pad\n", kPair);
+  expect_same(odd_grains(), "adapt_type = resample\nadapt_levels = 1\nadapt_remainder = keep\n", kPair);
 }
 
 TEST_F(Adapt, NonManifoldPlaces) {
@@ -211,7 +211,7 @@ TEST_F(Adapt, ExodusGrids) {
 
 TEST_F(Adapt, OneCellThick) {
   expect_refined(one_layer(), "adapt_type = vfrac_average\nadapt_levels = 1\n", {2, 3, 5, 8});
-  expect_refined(one_layer(), "adapt_type = coarsen\nadapt_levels = 1\nadapt_remainder = pad\n", kPair);
+  expect_refined(one_layer(), "adapt_type = coarsen\nadapt_levels = 1\nadapt_remainder = keep\n", kPair);
 }
 
 TEST_F(Adapt, PeriodicGrids) {
@@ -276,7 +276,7 @@ std::vector<Mistake> adapt_mistakes() {
   return {
       {"TooManyDoublings",
        voxels("adapt_type = coarsen\nadapt_levels = 3\n"),
-       {"adapt_levels", "line 7 of deck.i", "3 cells along x cannot be halved 3 times", "pad"}},
+       {"adapt_levels", "line 7 of deck.i", "3 cells along x cannot be halved 3 times", "keep"}},
       {"DefaultLevelsDoNotFit",
        voxels("adapt_type = resample\n"),
        {"'adapt_levels' (not given)", "3 cells along x cannot be halved 2 times"}},

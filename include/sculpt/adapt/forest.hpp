@@ -2,8 +2,9 @@
 // Which cells of the overlay grid are halved, and how often. Cells are refined in blocks of 2x2x2: a block of
 // level l is made of cells of level l (1/2^l of the size of the grid's cells). A refined block of level 0 has
 // a block of level 1 in the place of each of its cells, and so on; blocks that are not refined are the
-// leaves, which hold the cells of the mesh (the report, section 2.5). Where the grid has an odd number of
-// cells along an axis, its last blocks end at their middle plane. The same on every rank. Local.
+// leaves, which hold the cells of the mesh (the report, section 2.5). Where an odd number of cells of a level
+// fits along an axis, its last blocks end at their middle plane; cells across the end of the domain are
+// refined. The same on every rank. Local.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -17,12 +18,15 @@ namespace sculpt {
 class Forest {
  public:
   // cells: of the overlay grid; levels: how often a cell may be halved, 0 = never; periodic: axes whose ends
-  // meet (an even number of cells there unless levels is 0). Nothing is refined at first.
-  Forest(const Index3& cells, int levels, const std::array<bool, 3>& periodic);
+  // meet (an even number of cells there unless levels is 0); missing: so many cells of the finest level
+  // before the high ends of the grid the domain ends. Nothing is refined at first but cells across these
+  // ends.
+  Forest(const Index3& cells, int levels, const std::array<bool, 3>& periodic,
+         const Index3& missing = {0, 0, 0});
 
-  [[nodiscard]] int levels() const { return static_cast<int>(refined_.size()); }
+  [[nodiscard]] int levels() const { return levels_; }
   [[nodiscard]] const std::array<bool, 3>& periodic() const { return periodic_; }
-  // Cells of the grid if all were of this level.
+  // Cells in the domain if all were of this level, those across its ends included.
   [[nodiscard]] Index3 cells(int level) const;
   // Blocks of this level: half as many, rounded up.
   [[nodiscard]] Index3 blocks(int level) const;
@@ -57,6 +61,8 @@ class Forest {
     Index3 blocks{0, 0, 0};
     std::size_t first_word = 0;
   };
+  [[nodiscard]] bool fits(int level, std::size_t axis) const;
+  void refine_across_end(std::size_t axis);
   [[nodiscard]] bool wrap(int level, Index3& block) const;
   [[nodiscard]] std::size_t number(const Level& l, const Index3& b) const {
     return static_cast<std::size_t>(b[0] + l.blocks[0] * (b[1] + l.blocks[1] * b[2]));
@@ -69,7 +75,8 @@ class Forest {
   void visit_leaves(int level, const Index3& block,
                     const std::function<void(int, const Index3&)>& visit) const;
 
-  Index3 cells_;
+  Index3 finest_;  // cells of the finest level
+  int levels_;
   std::array<bool, 3> periodic_;
   std::vector<Level> refined_;
   std::vector<std::uint64_t> words_;

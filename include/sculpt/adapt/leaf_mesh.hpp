@@ -2,6 +2,7 @@
 // The mesh of a refined overlay grid: the cells of all leaves of a forest, conforming, no node hanging, with
 // layers of ghost cells. The ranks own boxes of blocks of level 0 with everything that these were refined
 // into.
+#include <optional>
 #include <vector>
 
 #include "sculpt/adapt/forest.hpp"
@@ -29,7 +30,8 @@ struct LeafMesh {
 // cubes of one level have the parity of their lattice position as colour, all others a colour of 8 or more.
 // Throws AgreedError where ids or local indices would overflow.
 [[nodiscard]] LeafMesh leaf_mesh(const Comm& comm, const Grid& grid, const Forest& forest,
-                                 const BlockParts& parts, int layers);
+                                 const BlockParts& parts, int layers,
+                                 const std::optional<Vec3>& high = std::nullopt);
 
 // Local. How many hexes a block of level 0 of a closed forest becomes.
 [[nodiscard]] std::int64_t hexes_in(const Forest& forest, const Index3& base_block);

@@ -44,7 +44,7 @@ enum AdaptType : int {
 // What becomes of cells of dense data beyond a multiple of 2^adapt_levels.
 enum AdaptRemainder : int {
   kRemainderDrop = 0,
-  kRemainderPad = 1,
+  kRemainderKeep = 1,
 };
 
 enum Smooth : int {

@@ -39,9 +39,10 @@ std::int64_t node_checksum(const Comm& comm, const HexMesh& mesh) {
 void expect_same_mesh(const Forest& forest, int layers, const std::string& name) {
   const Comm world = Comm::world(), self = Comm::self();
   const Grid grid = uniform_grid(forest.cells(0), {-1, 0.3, 2}, {0.7, 1.1, 0.9});
-  const LeafMesh one = leaf_mesh(self, grid, forest, alone(forest), layers);
+  const Vec3 high = grid_point(grid, forest.levels(), forest.cells(forest.levels()));
+  const LeafMesh one = leaf_mesh(self, grid, forest, alone(forest), layers, high);
   for (const Parts parts : kParts) {
-    const LeafMesh many = leaf_mesh(world, grid, forest, parts(world, forest), layers);
+    const LeafMesh many = leaf_mesh(world, grid, forest, parts(world, forest), layers, high);
     EXPECT_EQ(checksum(world, many.cells), checksum(self, one.cells)) << name;
     EXPECT_EQ(node_checksum(world, many.cells), node_checksum(self, one.cells)) << name;
     EXPECT_EQ(many.cells.colours, one.cells.colours) << name;
@@ -62,6 +63,9 @@ TEST(LeafMesh, IsTheSameAloneAndTogether) {
     expect_same_mesh(random_forest(grids[seed % 4], 1 + static_cast<int>(seed % 3), 0.02, seed),
                      2 + static_cast<int>(seed % 2), "seed " + std::to_string(seed));
   expect_same_mesh(Forest({6, 5, 4}, 2, kNotPeriodic), 2, "nothing refined");
+  Forest cut_short({6, 5, 4}, 2, kNotPeriodic, {1, 2, 3});  // ends inside cells
+  cut_short.close();
+  expect_same_mesh(cut_short, 2, "cut short");
 }
 
 // Ghosts are everything within so many hexes of the owned ones.

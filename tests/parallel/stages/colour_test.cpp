@@ -71,13 +71,5 @@ TEST(ColourNodes, AreTheSameAloneAndTogether) {
   }
 }
 
-TEST(ColourNodes, RefusePresetsThatAreNone) {
-  const Comm comm = Comm::world();
-  HexMesh mesh = overlay(comm, voxels("cells", {4, 4, 4}, 1, [](const Index3&) { return 0; }), 2).cells;
-  std::vector<std::uint8_t> preset = mesh.colour;
-  if (!preset.empty()) preset.back() = 8;
-  EXPECT_THROW(colour_nodes(mesh, preset), AgreedError);
-}
-
 }  // namespace
 }  // namespace sculpt::test

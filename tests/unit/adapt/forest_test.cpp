@@ -50,7 +50,9 @@ TEST(Forest, ClosedOnesKeepTheirPromises) {
   for (const Index3& cells : kGrids)
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
       const int levels = 1 + static_cast<int>(seed % 3);
-      Forest forest(cells, levels, kNotPeriodic);
+      // Some end inside a cell.
+      const Index3 missing{0, seed > 3 ? 1 : 0, seed == 5 ? (std::int64_t{1} << levels) - 1 : 0};
+      Forest forest(cells, levels, kNotPeriodic, missing);
       const IndexBox box = whole(forest.cells(levels - 1));
       for (std::int64_t c = 0; c < box.size(); ++c)
         if (scatter_unit(seed, static_cast<std::uint64_t>(c)) < 0.02)

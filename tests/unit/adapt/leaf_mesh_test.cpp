@@ -128,6 +128,33 @@ TEST(LeafMesh, ShellsOfFourLevels) {
   }
 }
 
+// Domains that end inside a cell of the grid: the cells there are refined until they fit.
+TEST(LeafMesh, TheDomainMayEndInsideACell) {
+  for (const Index3& finest : {Index3{7, 17, 28}, Index3{5, 1, 11}, Index3{13, 6, 3}, Index3{9, 9, 9}})
+    for (const int levels : {1, 2, 3}) {
+      const std::int64_t size = std::int64_t{1} << levels;
+      Index3 cells, missing;
+      Grid fine = uniform_grid(finest, {0, 0, 0}, {1, 1, 1});
+      for (std::size_t d = 0; d < 3; ++d) {
+        cells[d] = (finest[d] + size - 1) / size;
+        missing[d] = cells[d] * size - finest[d];
+      }
+      Forest forest(cells, levels, kNotPeriodic, missing);
+      if (levels < 3) forest.refine_cell(0, {0, 0, 0});
+      forest.close();
+      const double s = static_cast<double>(size);
+      const LeafMesh made =
+          leaf_mesh(Comm::self(), uniform_grid(cells, {0, 0, 0}, {s, s, s}), forest, alone(forest), 2,
+                    Vec3{static_cast<double>(finest[0]), static_cast<double>(finest[1]),
+                         static_cast<double>(finest[2])});
+      ASSERT_EQ(test::conformity_problem(made.cells, 0), "");
+      ASSERT_EQ(test::boundary_problem(made.cells), "");
+      ASSERT_EQ(test::box_problem(made.cells, fine), "");
+      EXPECT_NEAR(test::volume(made.cells), test::volume(fine), 1e-9);
+      EXPECT_EQ(doublets(made.cells), 0);
+    }
+}
+
 TEST(Forest, ClosingAddsTheCoarserLevelsAround) {
   Forest forest({8, 8, 8}, 2, kNotPeriodic);
   forest.refine_cell(1, {8, 8, 8});  // its block is cell (4,4,4) of the grid

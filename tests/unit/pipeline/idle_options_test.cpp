@@ -13,7 +13,7 @@ Told told(const std::string& lines) {
   return idle_adapt_options(parse_deck("BEGIN SCULPT\n" + lines + "\nEND SCULPT\n", "deck.i"));
 }
 const std::string kAll =
-    "adapt_threshold = 0.1\nadapt_levels = 1\nadapt_material = 3\nadapt_remainder = pad\n"
+    "adapt_threshold = 0.1\nadapt_levels = 1\nadapt_material = 3\nadapt_remainder = keep\n"
     "adapt_non_manifold = true\nadapt_load_balance = true\nadapt_export = true\nadapt_memory_stats = true\n";
 
 TEST(IdleAdaptOptions, SayNothingOfADeckWithoutThem) {

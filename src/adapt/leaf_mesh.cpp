@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "adapt/template_store.hpp"
@@ -351,10 +352,8 @@ class Builder {
 
   void finish() {
     HexMesh& m = out_.cells;
-    m.node_id = numbered(keys_, m.node_home);
-    m.hex_id = numbered(hex_key_, m.hex_home);
-    keys_ = {};
-    hex_key_ = {};
+    m.node_id = numbered(std::move(keys_), m.node_home);
+    m.hex_id = numbered(std::move(hex_key_), m.hex_home);
     m.material.assign(m.hexes.size(), 0);
     m.cell_size = grid_.cell_size();
     m.ghost_layers = layers_;
@@ -368,24 +367,30 @@ class Builder {
     colour_nodes(m, preset);
   }
 
-  // Dense ids of ascending keys; `homes`, keys of other entities, become dense ids as well.
-  [[nodiscard]] std::vector<GlobalId> numbered(const std::vector<GlobalId>& keys,
+  // Dense ids of ascending keys. `homes`, of periodic meshes, becomes dense ids as well: the key itself of
+  // what is no image, and that of the home, which this rank need not have, of an image.
+  [[nodiscard]] std::vector<GlobalId> numbered(std::vector<GlobalId> keys,
                                                std::vector<GlobalId>& homes) const {
     GlobalId total = 0;
     if (!periodic_) return dense_numbers(comm_, keys, total);
-    std::vector<GlobalId> all(keys);
-    all.insert(all.end(), homes.begin(), homes.end());
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    std::vector<GlobalId> away, all;
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      if (homes[i] != keys[i]) away.push_back(homes[i]);
+    std::sort(away.begin(), away.end());
+    away.erase(std::unique(away.begin(), away.end()), away.end());
+    all.reserve(keys.size() + away.size());
+    std::set_union(keys.begin(), keys.end(), away.begin(), away.end(), std::back_inserter(all));
     const std::vector<GlobalId> dense = dense_numbers(comm_, all, total);
-    const auto id_of = [&](GlobalId key) {
-      return dense[static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), key) - all.begin())];
-    };
-    std::vector<GlobalId> ids;
-    ids.reserve(keys.size());
-    for (const GlobalId key : keys) ids.push_back(id_of(key));
-    for (GlobalId& home : homes) home = id_of(home);
-    return ids;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      while (all[next] != keys[i]) ++next;
+      const bool is_image = homes[i] != keys[i];
+      keys[i] = dense[next];
+      homes[i] = is_image ? dense[static_cast<std::size_t>(
+                                std::lower_bound(all.begin(), all.end(), homes[i]) - all.begin())]
+                          : keys[i];
+    }
+    return keys;
   }
 
   const Comm& comm_;

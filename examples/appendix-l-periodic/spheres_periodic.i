@@ -1,4 +1,4 @@
-$ Sculpt input file: a periodic mesh
+$ spheres_periodic.i Sculpt input file demonstrating periodic meshing
 BEGIN SCULPT
   diatom_file = spheres_periodic.diatom
   xmin = -18.705510
@@ -10,9 +10,10 @@ BEGIN SCULPT
   nelx = 38
   nely = 38
   nelz = 38
+  adapt_type = vfrac_average
+  adapt_levels = 1
+  adapt_threshold = 0.0001
   periodic = true
-  periodic_nodesets = 1 2 3 4 5 6
-  gen_sidesets = rve
   exodus_file = spheres_periodic
   mesh_void = true
 END SCULPT

@@ -1,2 +1,0 @@
-sculpt -i spheres_periodic.i -j 4
-eputool -p 4 spheres_periodic

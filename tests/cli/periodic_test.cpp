@@ -134,7 +134,8 @@ class Periodic : public Scratch {
   }
   // Two spheres that cross sides of the box [0,2.7] x [-1,1] x [0.3,2.3], one at a corner, repeated where
   // they must be.
-  std::string sphere_deck(const std::string& more, bool repeated = true) const {
+  std::string sphere_deck(const std::string& more, bool repeated = true,
+                          const std::string& cells = "nelx = 13\nnely = 10\nnelz = 11\n") const {
     std::string text = "diatom\n package 'p'\n material 1\n";
     const double spheres[2][4] = {{0.1, -0.9, 0.25, 0.6}, {1.4, 0.1, 2.2, 0.55}};
     for (const auto& s : spheres)
@@ -147,9 +148,8 @@ class Periodic : public Scratch {
                     "\n   radius = " + std::to_string(s[3]) + "\n  endinsert\n";
           }
     write("s.diatom", text + " endpackage\nenddiatom\n");
-    return "diatom_file = s.diatom\nnelx = 13\nnely = 10\nnelz = 11\nxmin = 0\nymin = -1\nzmin = 0.3\n"
-           "xmax = 2.7\nymax = 1\nzmax = 2.3\nperiodic = true\n" +
-           more;
+    return "diatom_file = s.diatom\n" + cells + "xmin = 0\nymin = -1\nzmin = 0.3\n" +
+           "xmax = 2.7\nymax = 1\nzmax = 2.3\nperiodic = true\n" + more;
   }
   static constexpr Point kSpherePeriod{2.7, 2, 2.3 - 0.3};
   [[nodiscard]] const std::string& first_console() const { return first_console_; }
@@ -200,6 +200,37 @@ TEST_F(Periodic, Spheres) {
   EXPECT_NE(first_console().find("check_periodic: volume fractions one period apart differ by at most"),
             std::string::npos);
   EXPECT_GE(summary(first_console(), "Min Quality"), 0.3);
+}
+
+// Refined cells and their transitions cross the sides.
+TEST_F(Periodic, RefinedSpheres) {
+  const std::string even = "nelx = 6\nnely = 4\nnelz = 4\n";
+  for (const char* levels : {"1", "2"}) {
+    const RankMesh mesh = same_mesh(sphere_deck(
+        kSixSets + "mesh_void = true\nadapt_type = vfrac_average\nadapt_levels = " + levels + "\n", true,
+        even));
+    EXPECT_EQ(match_sides(mesh, kSpherePeriod).left, 0);
+    EXPECT_GE(summary(first_console(), "Min Quality"), 0.3);
+    for (std::size_t d = 0; d < 3; ++d)
+      EXPECT_EQ(mesh.node_sets[2 * d].node.size(), mesh.node_sets[2 * d + 1].node.size());
+  }
+  EXPECT_NE(first_console().find("in transition to level 2"), std::string::npos);
+  const std::string thin = "nelx = 6\nnely = 2\nnelz = 2\n";
+  const RankMesh narrow = same_mesh(sphere_deck(
+      "mesh_void = true\nadapt_type = vfrac_average\nadapt_levels = 2\nadapt_load_balance = true\n", true,
+      thin));
+  EXPECT_EQ(match_sides(narrow, kSpherePeriod).left, 0);
+}
+
+TEST_F(Periodic, CoarsenedAndRefinedGrains) {
+  const RankMesh coarse = same_mesh(grain_deck(16, 8, 16, 5, "adapt_type = coarsen\nadapt_levels = 2\n"));
+  EXPECT_EQ(match_sides(coarse, {16, 8, 16}).left, 0);
+  EXPECT_GE(summary(first_console(), "Min Quality"), 0.3);
+  const RankMesh fine = same_mesh(grain_deck(
+      6, 4, 7, 3,
+      "periodic_directions = xy\nadapt_type = vfrac_average\nadapt_levels = 1\ngen_sidesets = rve\n"));
+  EXPECT_EQ(match_sides(fine, {6, 4, 0}).faces[0] > 0, true);
+  same_mesh(grain_deck(16, 8, 16, 5, "adapt_type = resample\nadapt_levels = 1\n"));
 }
 
 // Without the void the spheres end where they end; what crosses a side still matches.
@@ -281,6 +312,17 @@ TEST_F(PeriodicErrors, OneCellOnAnAxis) {
   EXPECT_NE(complaint(grain_deck(5, 4, 1, 3, ""), 3).find("periodic: the grid has 1 cell in z"),
             std::string::npos);
   same_mesh(grain_deck(5, 4, 1, 3, "periodic_directions = xy\n"));
+}
+
+// Cells are refined in pairs.
+TEST_F(PeriodicErrors, OddGridsCannotBeRefined) {
+  const std::string told = complaint(sphere_deck("adapt_type = vfrac_average\n"), 3);
+  EXPECT_NE(told.find("periodic: a refined grid needs an even number of cells along x, found 13"),
+            std::string::npos)
+      << told;
+  EXPECT_NE(complaint(grain_deck(16, 12, 16, 5, "adapt_type = coarsen\nadapt_levels = 2\n"), 1)
+                .find("even number of cells along y, found 3 coarse ones"),
+            std::string::npos);
 }
 
 TEST_F(PeriodicErrors, OptionsThatDoNotFit) {

@@ -102,6 +102,17 @@ class Builder {
     for (std::size_t d = 0; d < 3; ++d) block[d] -= image[d] * parts_.blocks[d];
     return block;
   }
+  // A number that blocks of level 0 with a common hex do not share: their parity, with a third value for the
+  // last of an odd number of blocks where it meets the first.
+  [[nodiscard]] std::uint8_t turn_of(const Index3& block) const {
+    std::int64_t turn = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const bool meets_first =
+          forest_.periodic()[d] && parts_.blocks[d] % 2 != 0 && block[d] == parts_.blocks[d] - 1;
+      turn = 3 * turn + (meets_first ? 2 : block[d] % 2);
+    }
+    return static_cast<std::uint8_t>(turn);
+  }
   [[nodiscard]] std::int32_t owner_of(Index3 block, const Image& image) const {
     for (std::size_t d = 0; d < 3; ++d)
       block[d] = std::min(block[d] - image[d] * parts_.blocks[d], parts_.blocks[d] - 1);
@@ -163,6 +174,7 @@ class Builder {
             beyond.push_back(k);
         }
       });
+      refuse_more_than_fit(hexes);
       std::sort(mine.begin(), mine.end());
       mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
       keys_.insert(keys_.end(), mine.begin(), mine.end());
@@ -172,11 +184,16 @@ class Builder {
     const auto inner = static_cast<std::ptrdiff_t>(keys_.size());
     keys_.insert(keys_.end(), beyond.begin(), beyond.end());
     std::inplace_merge(keys_.begin(), keys_.begin() + inner, keys_.end());
-    constexpr std::int64_t kMost = std::numeric_limits<LocalId>::max() / 8;
-    if (hexes > kMost || static_cast<std::int64_t>(keys_.size()) > kMost)
-      throw Error(fmt::format("{} cells on one rank: at most {} fit; use more ranks", hexes, kMost));
+    refuse_more_than_fit(static_cast<std::int64_t>(keys_.size()));
     expected_ = static_cast<std::size_t>(hexes);
   }
+  static void refuse_more_than_fit(std::int64_t cells) {
+    constexpr std::int64_t kMost = std::numeric_limits<LocalId>::max() / 8;
+    if (cells > kMost)
+      throw Error(fmt::format("more than {} refined cells on one rank: give fewer adapt_levels or more ranks",
+                              kMost));
+  }
+
   void make_hexes() {
     HexMesh& m = out_.cells;
     const std::size_t nodes = keys_.size();
@@ -185,6 +202,7 @@ class Builder {
     m.box_sides.resize(nodes);
     m.colour.resize(nodes);
     m.level.assign(nodes, kUnset);
+    turn_.resize(nodes);
     m.hexes.reserve(expected_);
     hex_key_.reserve(expected_);
     m.hex_owner.reserve(expected_);
@@ -289,6 +307,7 @@ class Builder {
     const GlobalId key = key_of(p, n, block);
     const Image image = image_of(block);
     m.node_owner[at(local)] = owner_of(block, image);
+    turn_[at(local)] = turn_of(wrapped(block));
     if (periodic_) {
       m.node_home[at(local)] = key + (block_number(wrapped(block)) - block_number(block)) * per_block_;
       m.node_image[at(local)] = image;
@@ -346,7 +365,7 @@ class Builder {
       leaf.end = leaf.first + count;
     }
     m.node_id.swap(keys_);
-    drop_unused_nodes(m);
+    compact(turn_, drop_unused_nodes(m));
     m.node_id.swap(keys_);
   }
 
@@ -364,7 +383,7 @@ class Builder {
     m.node_exchange.copy_to_ghosts(m.level);
     m.node_exchange.copy_to_ghosts(m.colour);
     const std::vector<std::uint8_t> preset = m.colour;
-    colour_nodes(m, preset);
+    colour_nodes(m, preset, turn_);
   }
 
   // Dense ids of ascending keys. `homes`, of periodic meshes, becomes dense ids as well: the key itself of
@@ -407,6 +426,7 @@ class Builder {
   std::vector<std::ptrdiff_t> start_;                 // of the keys of each of these
   std::size_t expected_ = 0;
   std::vector<GlobalId> keys_, hex_key_;
+  std::vector<std::uint8_t> turn_;  // of the nodes, when they are coloured
   LeafMesh out_;
 };
 

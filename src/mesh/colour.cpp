@@ -10,24 +10,26 @@
 namespace sculpt {
 namespace {
 
-// Few enough that the nodes of one turn, which are visited in the order of memory, lie close; so many that
-// few of them share a hex and wait for each other.
+// Of turns drawn by lot. Few enough that the nodes of one turn, which are visited in the order of memory, lie
+// close; so many that few of them share a hex and wait for each other.
 constexpr std::uint64_t kTurns = 64;
 
 // Jones and Plassmann (1993): a node takes its colour once all nodes of its hexes that come before it, by
-// their turns, which the lots of their ids decide, and by their ids, have theirs.
+// their turns and by their ids, have theirs.
 class Colouring {
  public:
-  Colouring(HexMesh& mesh, std::span<const std::uint8_t> preset)
+  Colouring(HexMesh& mesh, std::span<const std::uint8_t> preset, std::span<const std::uint8_t> turns)
       : mesh_(mesh), comm_(mesh.node_exchange.comm()), news_(mesh.position.size(), 0) {
     collectively(comm_, "colouring nodes", [&] {
       check(preset.size() == mesh.position.size(), "one preset colour per node");
+      check(turns.empty() || turns.size() == mesh.position.size(), "one turn per node");
     });
     if (preset.data() != mesh.colour.data()) mesh.colour.assign(preset.begin(), preset.end());
     turn_.assign(mesh.position.size(), 0);
     for (LocalId n = 0; n < mesh.nodes(); ++n) {
       if (mesh.colour[at(n)] != kNoColour) continue;
-      turn_[at(n)] = static_cast<std::uint8_t>(lot_of(mesh.node_homes()[at(n)]) % kTurns);
+      turn_[at(n)] =
+          turns.empty() ? static_cast<std::uint8_t>(lot_of(mesh.node_homes()[at(n)]) % kTurns) : turns[at(n)];
       if (mesh.node_owner[at(n)] == comm_.rank()) waiting_.push_back(n);
     }
     std::stable_sort(waiting_.begin(), waiting_.end(),
@@ -104,6 +106,8 @@ class Colouring {
 
 }  // namespace
 
-void colour_nodes(HexMesh& mesh, std::span<const std::uint8_t> preset) { Colouring(mesh, preset).run(); }
+void colour_nodes(HexMesh& mesh, std::span<const std::uint8_t> preset, std::span<const std::uint8_t> turns) {
+  Colouring(mesh, preset, turns).run();
+}
 
 }  // namespace sculpt

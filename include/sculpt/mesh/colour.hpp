@@ -15,6 +15,10 @@ inline constexpr std::uint8_t kNoColour = 255;
 // without one get a colour from kFirstFreeColour upwards that no other node of their hexes has; it depends on
 // ids and connectivity only. Needs the exchange of nodes and one complete ghost layer of hexes. Work: a pass
 // over the hexes, the rest in proportion to the nodes without a preset colour.
-void colour_nodes(HexMesh& mesh, std::span<const std::uint8_t> preset);
+// turns: per local node, the same on all ranks: nodes with a smaller one choose first, then those with a
+// smaller id; empty: drawn by lot. Every time that nodes of different ranks have to wait for each other costs
+// a round of messages, so turns that keep neighbours of one turn on one rank are good.
+void colour_nodes(HexMesh& mesh, std::span<const std::uint8_t> preset,
+                  std::span<const std::uint8_t> turns = {});
 
 }  // namespace sculpt

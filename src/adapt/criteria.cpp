@@ -209,6 +209,7 @@ class Marker {
   }
   [[nodiscard]] Box inside_domain(Box box) const {
     for (std::size_t d = 0; d < 3; ++d) {
+      if (forest_.periodic()[d]) continue;
       box.lo[d] = std::max(box.lo[d], grid_.planes[d].front());
       box.hi[d] = std::min(box.hi[d], grid_.planes[d].back());
     }
@@ -312,10 +313,12 @@ class Marker {
 void mark_cells(const Grid& grid, const IndexBox& cells, MaterialField& field,
                 const AdaptCriterion& criterion, Forest& forest) {
   Marker marker(grid, field, criterion, forest);
-  for (std::int64_t c = 0; c < cells.size(); ++c) {
-    marker.visit(0, cells.cell(c));
-    if (criterion.non_manifold) marker.separate(0, cells.cell(c));
-  }
+  for (std::int64_t c = 0; c < cells.size(); ++c) marker.visit(0, cells.cell(c));
+  if (!criterion.non_manifold || cells.empty()) return;
+  IndexBox nodes = cells;  // the low ones of each cell, and those on the high sides of the grid
+  for (std::size_t d = 0; d < 3; ++d)
+    if (!forest.periodic()[d] && nodes.hi[d] == grid.cells[d]) ++nodes.hi[d];
+  for (std::int64_t n = 0; n < nodes.size(); ++n) marker.separate(0, nodes.cell(n));
 }
 
 }  // namespace sculpt

@@ -79,7 +79,8 @@ class Builder {
   void check_range() const {
     const double keys = static_cast<double>(extended_[0]) * static_cast<double>(extended_[1]) *
                         static_cast<double>(extended_[2]) * static_cast<double>(per_block_);
-    if (keys > 0x1p62)
+    const double blocks = keys / static_cast<double>(per_block_);  // ids of hexes begin with 31 bits for them
+    if (keys > 0x1p62 || blocks > 0x1p31)
       throw Error(
           fmt::format("a grid of {} x {} x {} cells refined {} times has more places than can be numbered",
                       grid_.cells[0], grid_.cells[1], grid_.cells[2], forest_.levels()));
@@ -290,10 +291,13 @@ class Builder {
 
   void place(const Placed& p, std::size_t n, LocalId local) {
     HexMesh& m = out_.cells;
+    Index3 block;
+    const GlobalId key = key_of(p, n, block);
+    const Image image = image_of(block);
     Vec3 x;
     unsigned sides = 0;
     const Index3 finest = forest_.cells(forest_.levels());
-    for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t d = 0; d < 3 && image == Image{0, 0, 0}; ++d) {  // images are told by their homes
       const double in_units = static_cast<double>(p.base[d] * edge_ + p.low[d]) +
                               p.shape->node[n][d] * static_cast<double>(p.step);
       x[d] = coordinate(grid_.planes[d], in_units / static_cast<double>(unit_));
@@ -303,9 +307,6 @@ class Builder {
       sides |= 2U << (2 * d);
       x[d] = high_[d];
     }
-    Index3 block;
-    const GlobalId key = key_of(p, n, block);
-    const Image image = image_of(block);
     m.node_owner[at(local)] = owner_of(block, image);
     turn_[at(local)] = turn_of(wrapped(block));
     if (periodic_) {

@@ -1,6 +1,7 @@
 #pragma once
-// A field whose opposite ends meet on some axes. Local.
+// A field whose opposite ends meet on some axes: boxes beyond an end are looked at one period away. Local.
 #include <array>
+#include <vector>
 
 #include "sculpt/grid/grid.hpp"
 #include "sculpt/input/material_source.hpp"
@@ -12,35 +13,18 @@ class PeriodicField final : public MaterialField {
   PeriodicField(MaterialField& field, const Grid& grid, const std::array<bool, 3>& periodic)
       : field_(field), grid_(grid), periodic_(periodic) {}
 
-  void measure(const Box& box, Fractions& out) override { field_.measure(wrapped(box), out); }
-  std::optional<std::int32_t> sole_material(const Box& box) override {
-    for (std::size_t d = 0; d < 3; ++d)  // a box across the end would have to be looked at in pieces
-      if (periodic_[d] && box.lo[d] < grid_.planes[d].back() && box.hi[d] > grid_.planes[d].back())
-        return std::nullopt;
-    for (std::size_t d = 0; d < 3; ++d)
-      if (periodic_[d] && box.lo[d] < grid_.planes[d].front() && box.hi[d] > grid_.planes[d].front())
-        return std::nullopt;
-    return field_.sole_material(wrapped(box));
-  }
+  void measure(const Box& box, Fractions& out) override;
+  std::optional<std::int32_t> sole_material(const Box& box) override;
 
  private:
-  // Moves a box whose middle is outside by one period.
-  [[nodiscard]] Box wrapped(Box box) const {
-    for (std::size_t d = 0; d < 3; ++d) {
-      if (!periodic_[d]) continue;
-      const double lo = grid_.planes[d].front(), hi = grid_.planes[d].back(),
-                   middle = 0.5 * (box.lo[d] + box.hi[d]);
-      const double move = middle < lo ? hi - lo : middle > hi ? lo - hi : 0;
-      if (move == 0) continue;
-      box.lo[d] += move;
-      box.hi[d] += move;
-    }
-    return box;
-  }
+  // Fills pieces_ with the boxes inside the ends that make up a box.
+  void cut(const Box& box);
+  void cut(const Box& box, std::size_t axis);
 
   MaterialField& field_;
   const Grid& grid_;
   std::array<bool, 3> periodic_;
+  std::vector<Box> pieces_;
 };
 
 }  // namespace sculpt

@@ -534,7 +534,7 @@ constexpr OptionSpec kAdaptOptions[] = {
      .group = kA,
      .slot = &Deck::adapt_memory_stats,
      .help = "Report memory per level",
-     .about = "Prints cells and memory of each level of refinement.",
+     .about = "Prints the memory before and after the refinement.",
      .supported = true},
 };
 

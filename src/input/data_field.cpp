@@ -233,10 +233,23 @@ class MixedField final : public DataField {
       out.add(fractions_.material[e], fractions_.value[e]);
     out.end_cell();
   }
+  // Pure cells in the runs in which PureField adds them: which class a rank takes depends on its part of the
+  // data, what is said of a box must not.
   void add_row(std::size_t first, const std::vector<double>& wx, double row, Shares& shares) const override {
-    for (std::size_t i = 0; i < wx.size(); ++i)
-      for (std::size_t e = begin(first + i); e < begin(first + i + 1); ++e)
-        shares.add(fractions_.material[e], fractions_.value[e] * (wx[i] * row));
+    std::optional<std::int32_t> current;
+    double run = 0;
+    for (std::size_t i = 0; i < wx.size(); ++i) {
+      const std::optional<std::int32_t> sole = sole_of(first + i);
+      if (current && sole != current) shares.add(*current, run * row);
+      if (sole != current) run = 0;
+      current = sole;
+      if (sole)
+        run += wx[i];
+      else
+        for (std::size_t e = begin(first + i); e < begin(first + i + 1); ++e)
+          shares.add(fractions_.material[e], fractions_.value[e] * (wx[i] * row));
+    }
+    if (current) shares.add(*current, run * row);
   }
   [[nodiscard]] std::optional<std::int32_t> sole_of(std::size_t cell) const override {
     if (begin(cell + 1) != begin(cell) + 1) return std::nullopt;

@@ -43,7 +43,10 @@ class Colouring {
       collectively(comm_, "colouring nodes", [this] { colour_ready(); });
       mesh_.node_exchange.copy_changed(std::span<std::uint8_t>(mesh_.colour), std::span<std::uint8_t>(news_),
                                        [](LocalId) {});
+      const std::int64_t before = left;
       left = comm_.sum(static_cast<std::int64_t>(waiting_.size()));
+      collectively(comm_, "colouring nodes",
+                   [&] { check(left < before, "nodes wait for each other's colours"); });
     }
     std::int64_t last = kFirstFreeColour - 1;
     for (const std::uint8_t c : mesh_.colour) last = std::max<std::int64_t>(last, c);
@@ -52,7 +55,9 @@ class Colouring {
 
  private:
   [[nodiscard]] bool before(LocalId a, LocalId b) const {
-    return std::pair(turn_[at(a)], a) < std::pair(turn_[at(b)], b);
+    const std::span<const GlobalId> home =
+        mesh_.node_homes();  // around a torus everybody has somebody on his left
+    return std::pair(turn_[at(a)], home[at(a)]) < std::pair(turn_[at(b)], home[at(b)]);
   }
 
   // The hexes around the waiting nodes.

@@ -20,7 +20,7 @@ namespace sculpt {
 namespace {
 
 constexpr double kFractionThreshold = 1e-4;  // of vfrac_average, coarsen and material: any interface
-constexpr double kMostBlocks = 0x1p34;       // of the finest level but one: 2 GB
+constexpr double kMostBytes = 0x1p31;        // per rank, to keep track of the blocks
 constexpr double kLengthThreshold = 0.25;  // of the types that measure distances: of the cell size / levels^2
 
 bool coarsens(const Deck& deck) {
@@ -212,9 +212,12 @@ class Adapter {
   AdaptCriterion criterion_of() {
     AdaptCriterion c;
     levels_ = deck_.adapt_levels;
-    if (deck_.adapt_type == kAdaptMaterial && !deck_.given("adapt_levels"))
+    if (deck_.adapt_type == kAdaptMaterial && !deck_.adapt_material.empty() && !deck_.given("adapt_levels")) {
+      levels_ = 0;
       for (const NumberRecord& record : deck_.adapt_material)  // each has its own
-        if (record.numbers.size() > 1) levels_ = std::max(levels_, static_cast<int>(record.numbers[1]));
+        levels_ = std::max(
+            levels_, record.numbers.size() > 1 ? static_cast<int>(record.numbers[1]) : deck_.adapt_levels);
+    }
     const Vec3 h = grid_.cell_size();
     c.threshold = deck_.adapt_threshold >= 0 ? deck_.adapt_threshold : kFractionThreshold;
     c.non_manifold = deck_.adapt_non_manifold;
@@ -254,15 +257,18 @@ class Adapter {
     return c;
   }
 
-  // Every rank holds a bit for every block that there could be.
+  // Every rank holds a bit for every block that there could be, and the owner and the weight of those of
+  // level 0.
   void refuse_many_blocks() const {
-    const double blocks = std::ldexp(static_cast<double>(grid_.cell_count()), 3 * levels_ - 6);
-    if (blocks <= kMostBlocks) return;
+    constexpr double kBytes = 12;
+    const double cells = static_cast<double>(grid_.cell_count());
+    const double bytes = std::ldexp(cells, 3 * levels_ - 6) / 7 + kBytes * cells / 8;
+    if (bytes <= kMostBytes) return;
     throw Error(fmt::format(
         "option 'adapt_levels' ({}): the {} x {} x {} cells of the grid cannot be halved {} times, it would "
         "take {:.3g} GB on every rank to keep track; give fewer levels or a coarser grid",
         place_of(deck_, "adapt_levels"), grid_.cells[0], grid_.cells[1], grid_.cells[2], levels_,
-        blocks / 7e9));
+        1e-9 * bytes));
   }
 
   // The records of adapt_material, now that the materials are known.
@@ -297,7 +303,11 @@ class Adapter {
   Material read(const BlockParts& parts) {
     std::vector<IndexBox> wanted;
     for (const IndexBox& blocks : parts.box)
-      wanted.push_back(wanted_of(grid_, source_.grid(), cells_of(blocks, grid_.cells), margin(), periodic_));
+      if (!source_.is_data())
+        wanted.emplace_back();  // shapes are known everywhere
+      else
+        wanted.push_back(
+            wanted_of(grid_, source_.grid(), cells_of(blocks, grid_.cells), margin(), periodic_));
     return read(wanted);
   }
   Material read(const std::vector<IndexBox>& wanted) {

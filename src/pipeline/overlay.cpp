@@ -69,6 +69,10 @@ Overlay read_uniform(const Comm& comm, const Deck& deck, MaterialSource& source,
 Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages) {
   const auto source = open_source(comm, deck, log);
   for (const std::string& idle : idle_adapt_options(deck)) log.line("WARNING: {}", idle);
+  if ((deck.given("check_periodic") || deck.given("check_periodic_tol")) &&
+      (!deck.periodic || source->is_data()))
+    log.line("WARNING: {}; no effect: check_periodic",
+             deck.periodic ? "data on a grid are taken as one period" : "the mesh is not periodic");
   const Grid grid = overlay_grid(deck, source->grid());
   return is_adapted(deck) ? read_adapted(comm, deck, *source, grid, log, stages)
                           : read_uniform(comm, deck, *source, grid, log, stages);

@@ -222,6 +222,34 @@ TEST_F(Periodic, RefinedSpheres) {
   EXPECT_EQ(match_sides(narrow, kSpherePeriod).left, 0);
 }
 
+// Two cells in a direction: every node has the same neighbour on both sides.
+TEST_F(Periodic, RefinedThinGrid) {
+  const Voxels stripes{2, 16, 16, [](int, int j, int k) { return j < 4 ? 1 : k < 12 ? 2 : 3; }};
+  write("v.spn", spn_text(stripes));
+  const RankMesh mesh = same_mesh(spn_deck(stripes, "v.spn") +
+                                  "periodic = true\nperiodic_directions = x\nadapt_type = vfrac_average\n"
+                                  "adapt_levels = 1\n");
+  EXPECT_GT(match_sides(mesh, {2, 0, 0}).faces[0], 100);
+  EXPECT_NE(first_console().find("in transition to level 1"), std::string::npos);
+}
+
+// What is near a material counts on both sides of an end.
+TEST_F(Periodic, DistancesReachAcrossTheSides) {
+  const auto refined = [&](double x) {
+    write("s.diatom", "diatom\n package 'p'\n material 1\n  insert sphere\n   center = " + std::to_string(x) +
+                          " 8 8\n   radius = 0.9\n  endinsert\n endpackage\nenddiatom\n");
+    (void)same_mesh(
+        "diatom_file = s.diatom\nnelx = 16\nnely = 16\nnelz = 16\nxmin = 0\nymin = 0\nzmin = 0\nxmax = 16\n"
+        "ymax = 16\nzmax = 16\nperiodic = true\nmesh_void = true\nadapt_type = material\n"
+        "adapt_material = 1 1 0.0001 3\n");
+    const std::size_t at = first_console().find("adapting the grid: ");
+    return std::stod(first_console().substr(at + 19));
+  };
+  const double at_the_end = refined(1);
+  EXPECT_GT(at_the_end, 20);
+  EXPECT_EQ(at_the_end, refined(9));
+}
+
 TEST_F(Periodic, CoarsenedAndRefinedGrains) {
   const RankMesh coarse = same_mesh(grain_deck(16, 8, 16, 5, "adapt_type = coarsen\nadapt_levels = 2\n"));
   EXPECT_EQ(match_sides(coarse, {16, 8, 16}).left, 0);

@@ -171,6 +171,38 @@ TEST_P(DataFieldOf, NamesASoleMaterialOnlyWhereItIs) {
   EXPECT_GT(sole, 100);
 }
 
+// One rank may have pure cells only where another one has a mixed cell farther away.
+TEST(DataField, PureCellsAddUpInOneWay) {
+  const Grid grid = uniform_grid({12, 5, 4}, {0, 0, 0}, {0.1, 0.13, 0.07});
+  const IndexBox all = whole(grid.cells), part{{0, 0, 0}, {8, 5, 4}};
+  const auto fractions_of = [](const IndexBox& box) {
+    Fractions f;
+    for (std::int64_t p = 0; p < box.size(); ++p) {
+      const Index3 c = box.cell(p);
+      if (c == Index3{11, 2, 2}) {
+        f.add(0, 0.25);
+        f.add(1, 0.75);
+      } else {
+        f.add((c[0] / 3 + c[1]) % 2 == 0 ? 0 : 1, 1);
+      }
+      f.end_cell();
+    }
+    return f;
+  };
+  const auto mixed = data_field(grid, all, fractions_of(all)),
+             pure = data_field(grid, part, fractions_of(part));
+  Random random(9);
+  for (int n = 0; n < 1000; ++n) {
+    Box box;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double end = grid.planes[d][static_cast<std::size_t>(part.hi[d])];
+      box.lo[d] = uniform(random, 0, end);
+      box.hi[d] = uniform(random, box.lo[d], end);
+    }
+    expect_same(measured(*pure, box), measured(*mixed, box));
+  }
+}
+
 TEST_P(DataFieldOf, DoesNotDependOnTheCellsThatWereRead) {
   const IndexBox part{{2, 1, 2}, {6, 4, 6}};
   Fractions of_part;

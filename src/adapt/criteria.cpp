@@ -14,19 +14,13 @@ namespace {
 
 constexpr double kJustOutside = 1e-3;  // of the finest cell
 
-// Fraction of a material in cell i of a list.
-double share_of(const Fractions& f, std::size_t i, std::int32_t material) {
-  for (auto e = static_cast<std::size_t>(f.offset[i]); e < static_cast<std::size_t>(f.offset[i + 1]); ++e)
-    if (f.material[e] == material) return f.value[e];
-  return 0;
-}
-
 // Largest difference, over the materials, of cells i and j.
-double difference(const Fractions& f, std::size_t i, std::size_t j) {
+double difference(const Fractions& f, LocalId i, LocalId j) {
   double most = 0;
   for (const auto& [a, b] : {std::pair{i, j}, std::pair{j, i}})
-    for (auto e = static_cast<std::size_t>(f.offset[a]); e < static_cast<std::size_t>(f.offset[a + 1]); ++e)
-      most = std::max(most, std::fabs(f.value[e] - share_of(f, b, f.material[e])));
+    for (auto e = static_cast<std::size_t>(f.offset[at(a)]);
+         e < static_cast<std::size_t>(f.offset[at(a) + 1]); ++e)
+      most = std::max(most, std::fabs(f.value[e] - fraction_of(f, b, f.material[e])));
   return most;
 }
 
@@ -158,9 +152,9 @@ class Marker {
     for (std::size_t e = 0; e < scratch_.material.size(); ++e) {
       const std::int32_t m = scratch_.material[e];
       double mean = 0;
-      for (std::size_t o = 0; o < 8; ++o) mean += 0.125 * share_of(scratch_, o, m);
+      for (std::size_t o = 0; o < 8; ++o) mean += 0.125 * fraction_of(scratch_, o, m);
       for (std::size_t o = 0; o < 8; ++o)
-        if (std::fabs(share_of(scratch_, o, m) - mean) > criterion_.threshold) return true;
+        if (std::fabs(fraction_of(scratch_, o, m) - mean) > criterion_.threshold) return true;
     }
     return false;
   }
@@ -205,7 +199,7 @@ class Marker {
     if (const auto sole = field_.sole_material(box)) return *sole == m.material && 1 > m.fraction;
     clear(scratch_);
     field_.measure(box, scratch_);
-    return share_of(scratch_, 0, m.material) > m.fraction;
+    return fraction_of(scratch_, 0, m.material) > m.fraction;
   }
   [[nodiscard]] Box inside_domain(Box box) const {
     for (std::size_t d = 0; d < 3; ++d) {
@@ -262,7 +256,7 @@ class Marker {
     for (unsigned o = 0; o < 8; ++o)
       for (std::size_t d = 0; d < 3; ++d)
         slope[d] +=
-            (o >> d & 1 ? 0.25 : -0.25) * (share_of(scratch_, o, cut.a) - share_of(scratch_, o, cut.b));
+            (o >> d & 1 ? 0.25 : -0.25) * (fraction_of(scratch_, o, cut.a) - fraction_of(scratch_, o, cut.b));
     if (!(norm(slope) > 0)) return cut;
     const Vec3 down = unit(-slope);  // from a to b, in cells
     const double share = most[0].first / (most[0].first + most[1].first);

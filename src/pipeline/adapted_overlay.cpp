@@ -8,12 +8,12 @@
 #include <limits>
 
 #include "pipeline/console.hpp"
+#include "pipeline/idle_options.hpp"
 #include "pipeline/layers.hpp"
 #include "pipeline/periodicity.hpp"
 #include "sculpt/adapt/criteria.hpp"
 #include "sculpt/adapt/leaf_fractions.hpp"
 #include "sculpt/adapt/leaf_mesh.hpp"
-#include "sculpt/deck/options.hpp"
 #include "sculpt/vfrac/fractions.hpp"
 
 namespace sculpt {
@@ -25,12 +25,6 @@ constexpr double kLengthThreshold = 0.25;  // of the types that measure distance
 
 bool coarsens(const Deck& deck) {
   return deck.adapt_type == kAdaptCoarsen || deck.adapt_type == kAdaptResample;
-}
-
-const char* type_name(const Deck& deck) {
-  for (const EnumValue& value : find_option("adapt_type")->values)
-    if (value.number == deck.adapt_type) return value.name.data();
-  return "";
 }
 
 std::string place_of(const Deck& deck, const char* option) {
@@ -73,7 +67,7 @@ CoarseGrid coarse_grid(const Deck& deck, const Grid& dense, const Log& log) {
   }
   if (!rest.empty())
     log.line("{}{}: the grid is not a multiple of {} cells; {} at the high sides: {}{}",
-             keep ? "" : "WARNING: ", type_name(deck), step, keep ? "kept" : "dropped", rest,
+             keep ? "" : "WARNING: ", adapt_type_name(deck), step, keep ? "kept" : "dropped", rest,
              keep ? "" : " (adapt_remainder = keep keeps them)");
   return coarse;
 }
@@ -245,14 +239,14 @@ class Adapter {
       throw Error(fmt::format(
           "option 'adapt_type' ({}): {} measures the distance from facets or shapes, but the input has "
           "none; use surface_to_surface or vfrac_average",
-          place_of(deck_, "adapt_type"), type_name(deck_)));
+          place_of(deck_, "adapt_type"), adapt_type_name(deck_)));
     if (source_.is_data()) {
       c.threshold = std::numeric_limits<double>::infinity();
       log_.line(
           "WARNING: {}: the input is data on the cells of the grid, which has no finer surface; nothing is "
           "refined but "
           "with vfrac_average or material",
-          type_name(deck_));
+          adapt_type_name(deck_));
     }
     return c;
   }
@@ -405,7 +399,7 @@ Overlay read_adapted(const Comm& comm, const Deck& deck, MaterialSource& source,
   if (!source.is_data())
     throw Error(fmt::format(
         "option 'adapt_type' ({}): {} needs data on a dense grid; shapes are refined by vfrac_average",
-        place_of(deck, "adapt_type"), type_name(deck)));
+        place_of(deck, "adapt_type"), adapt_type_name(deck)));
   Adapter adapter(comm, deck, source, coarse_grid(deck, grid, log), log, stages);
   return deck.adapt_type == kAdaptCoarsen ? adapter.refined() : adapter.resampled();
 }

@@ -37,13 +37,13 @@ bool asks(const Deck& deck, std::string_view option) {
   return deck.given(option);
 }
 
-std::string_view type_name(const Deck& deck) {
+}  // namespace
+
+std::string_view adapt_type_name(const Deck& deck) {
   for (const EnumValue& value : find_option("adapt_type")->values)
     if (value.number == deck.adapt_type) return value.name;
   return "";
 }
-
-}  // namespace
 
 std::vector<std::string> idle_adapt_options(const Deck& deck) {
   std::vector<std::string> told;
@@ -59,7 +59,8 @@ std::vector<std::string> idle_adapt_options(const Deck& deck) {
     else
       idle += fmt::format("{}{}", idle.empty() ? "" : ", ", use.option);
   }
-  if (!idle.empty()) told.push_back(fmt::format("adapt_type is {}; no effect: {}", type_name(deck), idle));
+  if (!idle.empty())
+    told.push_back(fmt::format("adapt_type is {}; no effect: {}", adapt_type_name(deck), idle));
   return told;
 }
 

@@ -23,19 +23,12 @@ struct Difference {
   double fraction_inside = 0, fraction_outside = 0;
 };
 
-double fraction_at(const Fractions& f, std::size_t cell, std::int32_t material) {
-  for (auto e = static_cast<std::size_t>(f.offset[cell]); e < static_cast<std::size_t>(f.offset[cell + 1]);
-       ++e)
-    if (f.material[e] == material) return f.value[e];
-  return 0;
-}
-
 // Compares cells 0 and 1 of a list, material by material.
 void compare(const Fractions& pair, Difference here, Difference& worst) {
   for (const std::int32_t material : pair.material) {
     here.material = material;
-    here.fraction_inside = fraction_at(pair, 0, material);
-    here.fraction_outside = fraction_at(pair, 1, material);
+    here.fraction_inside = fraction_of(pair, 0, material);
+    here.fraction_outside = fraction_of(pair, 1, material);
     here.value = std::fabs(here.fraction_inside - here.fraction_outside);
     if (here.value > worst.value || (here.value == worst.value && here.key < worst.key)) worst = here;
   }

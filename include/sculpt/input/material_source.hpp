@@ -38,6 +38,14 @@ struct Fractions {
   void end_cell() { offset.push_back(static_cast<std::int64_t>(material.size())); }
 };
 
+// Fraction of material m in a cell; 0 when it is not listed.
+[[nodiscard]] inline double fraction_of(const Fractions& f, LocalId cell, std::int32_t m) {
+  const auto c = static_cast<std::size_t>(cell);
+  for (auto e = static_cast<std::size_t>(f.offset[c]); e < static_cast<std::size_t>(f.offset[c + 1]); ++e)
+    if (f.material[e] == m) return f.value[e];
+  return 0;
+}
+
 // The materials of a run, the same on every rank. Dense index = position in block_id, which ascends, except
 // that the void that has no id of the user's (`diatom` space outside every shape) may get the id by the rules
 // of void_mat.

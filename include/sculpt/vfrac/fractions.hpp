@@ -10,14 +10,6 @@
 
 namespace sculpt {
 
-// Fraction of material m in a cell; 0 when it is not listed.
-[[nodiscard]] inline double fraction_of(const Fractions& f, LocalId cell, std::int32_t m) {
-  const auto c = static_cast<std::size_t>(cell);
-  for (auto e = static_cast<std::size_t>(f.offset[c]); e < static_cast<std::size_t>(f.offset[c + 1]); ++e)
-    if (f.material[e] == m) return f.value[e];
-  return 0;
-}
-
 // The cells of `box` (a box of the grid grown by `expand` layers per side) with the fractions of the nearest
 // cell of the source grid; `data` holds the cells of `source_box`, both x fastest.
 [[nodiscard]] Fractions expand_fractions(const Fractions& data, const IndexBox& source_box,

@@ -110,8 +110,33 @@ class Pillower {
       const auto items = around[n];
       for (const std::int32_t item : items)
         corner_[at(item / 8)][static_cast<std::size_t>(item % 8)] = first_[at(n)];
-      if (on_boundary_[at(n)]) copy_node(n, items);
+      if (!on_boundary_[at(n)]) continue;
+      copy_node(n, items);
+      if (rules_.box_sides == 0 && mesh_.box_sides[at(n)] != 0)
+        result_.mesh.box_sides[at(first_[at(n)])] = sides_left(n, items);
     }
+  }
+
+  // The sides of the box on which an old node still has a face: those where the faces at it now have
+  // different nodes. In refined meshes a hex may touch the box in an edge only; the layers
+  // around it close over the edge, and its nodes lie inside then.
+  [[nodiscard]] std::uint8_t sides_left(LocalId node, std::span<const std::int32_t> items) const {
+    std::array<LocalId, 6> taken;
+    taken.fill(kNone);
+    unsigned left = 0;
+    for (const std::int32_t item : items) {
+      const LocalId h = item / 8, corner = corner_[at(h)][static_cast<std::size_t>(item % 8)];
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
+        if (neighbours_[at(h)][static_cast<std::size_t>(f)] != kNone) continue;
+        for (std::size_t side = 0; side < 6; ++side) {
+          if (!(face_sides(mesh_, h, f) >> side & 1)) continue;
+          const bool stays = corner == first_[at(node)];
+          if (stays || (taken[side] != kNone && taken[side] != corner)) left |= 1U << side;
+          taken[side] = corner;
+        }
+      }
+    }
+    return static_cast<std::uint8_t>(left);
   }
 
   // One copy for every face-connected group of equally labelled hexes at the node that has a wrapped face

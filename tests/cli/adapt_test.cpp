@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "bad_input.hpp"
@@ -134,6 +135,22 @@ TEST_F(Adapt, CoarsenedVoxels) {
   EXPECT_EQ(width(kept.x), 13);
   EXPECT_EQ(width(kept.y), 10);
   EXPECT_EQ(width(kept.z), 9);
+}
+
+// An interface through transitions at the box: hexes there touch the box in an edge, and the layers of buffer
+// hexes close over it.
+TEST_F(Adapt, InterfacesThroughTransitionsAtTheBox) {
+  const Voxels waves{48, 16, 16, [](int i, int j, int k) {
+                       const double w = std::sin(0.31 * i + 0.2 * j) + std::sin(0.27 * j - 0.11 * k) +
+                                        std::sin(0.23 * k + 0.1 * i);
+                       return w > 0.2 ? 1 : 2;
+                     }};
+  for (const char* threshold : {"0.6", "0.7"}) {
+    expect_same(waves,
+                std::string("adapt_type = coarsen\nadapt_levels = 2\nadapt_threshold = ") + threshold + "\n",
+                {3});
+    EXPECT_GE(summary(first_console(), "Min Quality"), 0.3) << threshold;
+  }
 }
 
 // Where a cell of three voxels is all that differs, a threshold lets it go.

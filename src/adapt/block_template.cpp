@@ -29,8 +29,8 @@ const std::array<std::array<int, 3>, kBlockNeighbours> kBlockOffset = [] {
 namespace {
 
 // A corner of a new hex: the centre of the old corners that are named (one: the corner itself; two: the
-// middle of an edge; four: of a face; eight: of the hex), as a mask. Corners of which several are named as
-// one in kMerged are one node.
+// middle of an edge; four: of a face; eight: of the hex), as a mask. Sites that `merged` of a Cut names
+// together are one node.
 using Site = std::uint8_t;
 using NewHex = std::array<Site, 8>;
 

@@ -28,6 +28,7 @@ struct LeafMesh {
 
 // Collective. The cells of a closed forest on a grid. Ids do not depend on the parts. Nodes of cells that are
 // cubes of one level have the parity of their lattice position as colour, all others a colour of 8 or more.
+// `high` is the upper corner of the domain where the grid ends beyond it.
 // Throws AgreedError where ids or local indices would overflow.
 [[nodiscard]] LeafMesh leaf_mesh(const Comm& comm, const Grid& grid, const Forest& forest,
                                  const BlockParts& parts, int layers,

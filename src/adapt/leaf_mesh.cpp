@@ -202,7 +202,7 @@ class Builder {
     m.node_owner.resize(nodes);
     m.box_sides.resize(nodes);
     m.colour.resize(nodes);
-    m.level.assign(nodes, kUnset);
+    level_.assign(nodes, kUnset);
     turn_.resize(nodes);
     m.hexes.reserve(expected_);
     hex_key_.reserve(expected_);
@@ -277,14 +277,14 @@ class Builder {
     } else if (n >= p.shape->surface) {
       colour = p.shape->interior_colour[n - p.shape->surface];
     }
-    if (m.level[at(local)] != kUnset) {
-      if (m.level[at(local)] != level) colour = kNoColour;
+    if (level_[at(local)] != kUnset) {
+      if (level_[at(local)] != level) colour = kNoColour;
       if (m.colour[at(local)] == kNoColour) colour = kNoColour;
       m.colour[at(local)] = colour;
-      m.level[at(local)] = std::max(m.level[at(local)], level);
+      level_[at(local)] = std::max(level_[at(local)], level);
       return;
     }
-    m.level[at(local)] = level;
+    level_[at(local)] = level;
     m.colour[at(local)] = colour;
     place(p, n, local);
   }
@@ -381,7 +381,8 @@ class Builder {
     connect_ranks(comm_, m);
     share_positions(m);
     // The outermost nodes do not see all their hexes.
-    m.node_exchange.copy_to_ghosts(m.level);
+    m.node_exchange.copy_to_ghosts(level_);
+    for (const std::uint8_t level : level_) m.node_unit.push_back(std::ldexp(1.0F, -level));
     m.node_exchange.copy_to_ghosts(m.colour);
     const std::vector<std::uint8_t> preset = m.colour;
     colour_nodes(m, preset, turn_);
@@ -427,7 +428,8 @@ class Builder {
   std::vector<std::ptrdiff_t> start_;                 // of the keys of each of these
   std::size_t expected_ = 0;
   std::vector<GlobalId> keys_, hex_key_;
-  std::vector<std::uint8_t> turn_;  // of the nodes, when they are coloured
+  std::vector<std::uint8_t> turn_;   // of the nodes, when they are coloured
+  std::vector<std::uint8_t> level_;  // of the nodes: that of the smallest cells around
   LeafMesh out_;
 };
 

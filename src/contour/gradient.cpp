@@ -78,6 +78,7 @@ bool GradientStencil::share_node_on(LocalId cell, LocalId other, std::uint8_t si
 // of the box: for every set of sides those that share a node on all of them. (No node is on opposite sides,
 // so images across one are no neighbours across the other.)
 void GradientStencil::mirror(LocalId cell) {
+  if (!mesh_.exterior.empty()) return;
   const Hex& hex = mesh_.hexes[static_cast<std::size_t>(cell)];
   for (std::size_t d = 0; d < 3; ++d)
     for (const std::uint8_t side :

@@ -35,7 +35,7 @@ class Smoother {
   // of a smooth curve by themselves have no part in the growing passes.
   void pass(double factor) {
     moved_ = x_;
-    for (const LocalId i : owned_) moved_[at(i)] += factor * held_on_box(wish(at(i), factor < 0), sides(i));
+    for (const LocalId i : owned_) moved_[at(i)] += held_at(i, x_[at(i)], factor * wish(at(i), factor < 0));
     x_.swap(moved_);
     share_positions(mesh_, exchange_, faces_.nodes, x_);
   }
@@ -43,7 +43,7 @@ class Smoother {
   void project(const std::vector<Crossing>& crossings, const ExactSurface& exact) {
     for (const LocalId i : owned_) {
       Vec3& p = x_[at(i)];
-      const Vec3 move = held_on_box(onto_geometry(mesh_, faces_, crossings, exact, at(i), p) - p, sides(i));
+      const Vec3 move = held_at(i, p, onto_geometry(mesh_, faces_, crossings, exact, at(i), p) - p);
       if (largest(scaled(move, mesh_.per_cell(faces_.nodes[at(i)]))) > kRounding) p += move;
     }
     share_positions(mesh_, exchange_, faces_.nodes, x_);
@@ -55,9 +55,9 @@ class Smoother {
     moved_ = x_;
     for (const LocalId i : owned_) {
       Vec3& p = moved_[at(i)];
-      p += factor * held_on_box(wish(at(i), false), sides(i));
+      p += held_at(i, p, factor * wish(at(i), false));
       if (faces_.kind[at(i)] == NodeClass::kSurface)
-        p += held_on_box(onto_quadric(quadric_at(i), p) - p, sides(i));
+        p += held_at(i, p, onto_quadric(quadric_at(i), p) - p);
     }
     x_.swap(moved_);
     share_positions(mesh_, exchange_, faces_.nodes, x_);
@@ -70,7 +70,9 @@ class Smoother {
 
  private:
   [[nodiscard]] const Vec3& position(LocalId i) const { return x_[at(i)]; }
-  [[nodiscard]] std::uint8_t sides(LocalId i) const { return mesh_.box_sides[at(faces_.nodes[at(i)])]; }
+  [[nodiscard]] Vec3 held_at(LocalId i, const Vec3& from, const Vec3& move) const {
+    return held(mesh_, faces_.nodes[at(i)], from, move);
+  }
 
   [[nodiscard]] Vec3 towards_mean(std::size_t i, std::span<const LocalId> of) const {
     Vec3 sum;
@@ -175,16 +177,17 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
     if (options.projection == SurfaceProjection::kOff) {
       const Vec3 way = p - placed[i];
       const double length = norm(scaled(way, in_cells));
-      if (length > kFarthestFromContour) p = placed[i] + (kFarthestFromContour / length) * way;
+      if (length > kFarthestFromContour)
+        p = placed[i] + held(mesh, faces.nodes[i], placed[i], (kFarthestFromContour / length) * way);
     }
     // On the box a node cannot follow a surface that ends short of it: there the side may not close up.
-    const bool held = mesh.box_sides[at(faces.nodes[i])] != 0;
+    const bool on_side = mesh.box_sides[at(faces.nodes[i])] != 0;
     const double farthest =
-        options.projection == SurfaceProjection::kInterface && !held ? kFarthestProjected : kFarthest;
+        options.projection == SurfaceProjection::kInterface && !on_side ? kFarthestProjected : kFarthest;
     const Vec3 move = p - grid_position[i];
     const double most = largest(scaled(move, in_cells));
     if (most > farthest)
-      p = grid_position[i] + held_on_box((farthest / most) * move, mesh.box_sides[at(faces.nodes[i])]);
+      p = grid_position[i] + held(mesh, faces.nodes[i], grid_position[i], (farthest / most) * move);
   }
   share_positions(mesh);
 }

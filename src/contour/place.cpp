@@ -94,10 +94,10 @@ Vec3 onto_geometry(const HexMesh& mesh, const Interfaces& faces, const std::vect
 }
 
 Vec3 within_reach(const HexMesh& mesh, LocalId node, const Vec3& grid_position, const Vec3& point) {
-  Vec3 move = held_on_box(point - grid_position, mesh.box_sides[at(node)]);
+  Vec3 move = held(mesh, node, grid_position, point - grid_position);
   const double most = largest(scaled(move, mesh.per_cell(node)));
   const double farthest = mesh.box_sides[at(node)] != 0 ? kFarthestOnBox : kFarthest;
-  if (most > farthest) move = (farthest / most) * move;
+  if (most > farthest) move = held(mesh, node, grid_position, (farthest / most) * move);
   return grid_position + move;
 }
 

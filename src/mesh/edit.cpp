@@ -20,7 +20,8 @@ std::vector<LocalId> drop_unused_nodes(HexMesh& mesh) {
   compact(mesh.node_owner, node);
   compact(mesh.box_sides, node);
   compact(mesh.colour, node);
-  if (!mesh.level.empty()) compact(mesh.level, node);
+  if (!mesh.exterior.empty()) compact(mesh.exterior.hold_of, node);
+  if (!mesh.node_unit.empty()) compact(mesh.node_unit, node);
   if (!mesh.node_home.empty()) {
     compact(mesh.node_home, node);
     compact(mesh.node_image, node);
@@ -33,6 +34,11 @@ std::vector<LocalId> drop_unused_nodes(HexMesh& mesh) {
 void transform(HexMesh& mesh, const Vec3& scale, const Vec3& translate) {
   for (Vec3& p : mesh.position)
     for (std::size_t d = 0; d < 3; ++d) p[d] = scale[d] * p[d] + translate[d];
+  const auto moved = [&](Vec3& p) { p = scaled(p, scale) + translate; };
+  for (Facet& f : mesh.exterior.facets)
+    for (Vec3& p : f.corner) moved(p);
+  for (Hold& h : mesh.exterior.holds)
+    for (Vec3& p : h.line) moved(p);
   mesh.cell_size = scaled(mesh.cell_size, scale);
   mesh.period = scaled(mesh.period, scale);
   mesh.quantum = {0, 0, 0};
@@ -52,6 +58,8 @@ std::vector<LocalId> remove_hexes(const Comm& comm, HexMesh& mesh, std::vector<s
     compact(mesh.hex_image, hex);
   }
   mesh.lattice = {0, 0, 0};
+  std::erase_if(mesh.exterior.faces, [&](const ExteriorFace& f) { return hex[at(f.hex)] == kNone; });
+  for (ExteriorFace& f : mesh.exterior.faces) f.hex = hex[at(f.hex)];
   // An owner sees all hexes around its nodes, so that it keeps every node that another rank keeps.
   drop_unused_nodes(mesh);
   connect_ranks(comm, mesh);

@@ -27,6 +27,21 @@ std::uint8_t face_sides(const HexMesh& mesh, LocalId hex, int face) {
   return sides;
 }
 
+Freedom freedom(const HexMesh& mesh, LocalId node, const Vec3& p) {
+  if (mesh.exterior.empty()) return {mesh.box_sides[at(node)], 3, {}};
+  const LocalId hold = mesh.exterior.hold_of[at(node)];
+  if (hold == kNone) return {};
+  switch (mesh.exterior.holds[at(hold)].kind) {
+    case Hold::Kind::kSurface:
+      return {0, 2, mesh.exterior.direction(hold, p)};
+    case Hold::Kind::kLine:
+      return {0, 1, mesh.exterior.direction(hold, p)};
+    case Hold::Kind::kPoint:
+      break;
+  }
+  return {0, 0, {}};
+}
+
 void connect_ranks(const Comm& comm, HexMesh& mesh) {
   mesh.node_exchange = GhostExchange(comm, mesh.node_id, mesh.node_owner, mesh.node_home);
   mesh.hex_exchange = GhostExchange(comm, mesh.hex_id, mesh.hex_owner, mesh.hex_home);

@@ -14,6 +14,7 @@ namespace {
 constexpr GlobalId kNodeFactor = 64, kHexFactor = 8;
 constexpr GlobalId kBoxNodeFactor = 2;  // a wrap of the box copies a node once
 constexpr int kBottom = 4, kTop = 5;    // faces of a new hex: towards the old hex, where the old face was
+constexpr double kLeastOfWay = 0.25;    // what is left of the way of a copy when it is put on the exterior
 constexpr std::int32_t kOutside = -1;   // stands for the material of what is not meshed
 
 // The interface that runs through a set at one of its nodes.
@@ -45,6 +46,7 @@ class Pillower {
     find_wrapped_faces();
     number_nodes();
     make_hexes();
+    follow_exterior();
     forget_unused_nodes();
     if (rules_.with_neighbours) connect();
     HexMesh& out = result_.mesh;
@@ -72,13 +74,20 @@ class Pillower {
       if (label_[at(h)] < 0) continue;
       for (int f = 0; f < 6; ++f) {
         const LocalId other = neighbours_[at(h)][static_cast<std::size_t>(f)];
-        const bool wrap = other != kNone ? label_[at(other)] != label_[at(h)]
-                                         : (rules_.box_sides & face_sides(mesh_, h, f)) != 0;
+        const bool wrap = other != kNone ? label_[at(other)] != label_[at(h)] : wraps_boundary({h, f});
         if (!wrap) continue;
         wrapped_[at(h)] |= static_cast<std::uint8_t>(1 << f);
         for (const LocalId n : face_nodes(mesh_, {h, f})) on_boundary_[at(n)] = 1;
       }
     }
+  }
+
+  // Whether a face without a neighbour is to be wrapped.
+  [[nodiscard]] bool wraps_boundary(HexFace face) const {
+    if (mesh_.exterior.empty()) return (rules_.box_sides & face_sides(mesh_, face.hex, face.face)) != 0;
+    const LocalId facet = mesh_.exterior.facet_at(face.hex, face.face);
+    if (facet == kNone) return false;
+    return rules_.box_sides != 0 || mesh_.exterior.facets[at(facet)].kept != 0;
   }
 
   void add_node(LocalId from, GlobalId copy, const Vec3& position, std::uint8_t sides) {
@@ -88,7 +97,8 @@ class Pillower {
     out.node_owner.push_back(mesh_.node_owner[at(from)]);
     out.box_sides.push_back(sides);
     out.colour.push_back(mesh_.colour[at(from)]);
-    if (!mesh_.level.empty()) out.level.push_back(mesh_.level[at(from)]);
+    if (!mesh_.node_unit.empty()) out.node_unit.push_back(mesh_.node_unit[at(from)]);
+    if (!mesh_.exterior.empty()) out.exterior.hold_of.push_back(mesh_.exterior.hold_of[at(from)]);
     if (!mesh_.node_home.empty()) {
       out.node_home.push_back(node_factor_ * mesh_.node_home[at(from)] + copy);
       out.node_image.push_back(mesh_.node_image[at(from)]);
@@ -101,6 +111,12 @@ class Pillower {
   // corner.
   void number_nodes() {
     const NodeHexes around(mesh_);
+    if (!mesh_.exterior.empty()) {
+      result_.mesh.exterior.facets = mesh_.exterior.facets;
+      result_.mesh.exterior.holds = mesh_.exterior.holds;
+      result_.mesh.exterior.patch = mesh_.exterior.patch;
+      result_.mesh.exterior.slides = mesh_.exterior.slides;
+    }
     corner_.resize(mesh_.hexes.size());
     first_.resize(mesh_.position.size());
     result_.mesh.position.reserve(mesh_.position.size());
@@ -112,8 +128,11 @@ class Pillower {
         corner_[at(item / 8)][static_cast<std::size_t>(item % 8)] = first_[at(n)];
       if (!on_boundary_[at(n)]) continue;
       copy_node(n, items);
-      if (rules_.box_sides == 0 && mesh_.box_sides[at(n)] != 0)
-        result_.mesh.box_sides[at(first_[at(n)])] = sides_left(n, items);
+      if (rules_.box_sides == 0 && mesh_.box_sides[at(n)] != 0) {
+        const std::uint8_t left = sides_left(n, items);
+        result_.mesh.box_sides[at(first_[at(n)])] = left;
+        if (left == 0) leave_exterior(n, items);
+      }
     }
   }
 
@@ -121,14 +140,15 @@ class Pillower {
   // different nodes. In refined meshes a hex may touch the box in an edge only; the layers
   // around it close over the edge, and its nodes lie inside then.
   [[nodiscard]] std::uint8_t sides_left(LocalId node, std::span<const std::int32_t> items) const {
-    std::array<LocalId, 6> taken;
+    std::array<LocalId, 8> taken;
     taken.fill(kNone);
     unsigned left = 0;
     for (const std::int32_t item : items) {
       const LocalId h = item / 8, corner = corner_[at(h)][static_cast<std::size_t>(item % 8)];
       for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
         if (neighbours_[at(h)][static_cast<std::size_t>(f)] != kNone) continue;
-        for (std::size_t side = 0; side < 6; ++side) {
+        if (wrapped(h, f)) left |= face_sides(mesh_, h, f);
+        for (std::size_t side = 0; side < taken.size(); ++side) {
           if (!(face_sides(mesh_, h, f) >> side & 1)) continue;
           const bool stays = corner == first_[at(node)];
           if (stays || (taken[side] != kNone && taken[side] != corner)) left |= 1U << side;
@@ -168,10 +188,157 @@ class Pillower {
       check(++copies < node_factor_, "a node needs too many pillow copies");
       std::sort(group_.begin(), group_.end());
       const LocalId copy = result_.mesh.nodes();
-      add_node(node, copies,
-               mesh_.position[at(node)] + held_on_box(rules_.offset * inwards(node, copy), sides), sides);
+      const Vec3 way = rules_.offset * inwards(node, copy);
+      if (mesh_.exterior.empty())
+        add_node(node, copies, mesh_.position[at(node)] + held_on_box(way, sides), sides);
+      else
+        add_held(node, items, copies, way, sides);
       for (const std::int32_t item : group_) corner_[at(item / 8)][static_cast<std::size_t>(item % 8)] = copy;
     }
+  }
+
+  // A face of the boundary at a node: the ends of its edges there, the one that comes first by the right-hand
+  // rule and the other one.
+  struct Piece {
+    LocalId facet, next, previous;
+  };
+  void add_pieces(LocalId node, std::span<const std::int32_t> items, std::vector<Piece>& pieces) const {
+    pieces.clear();
+    for (const std::int32_t item : items)
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
+        const HexFace face{item / 8, f};
+        const LocalId facet = mesh_.exterior.facet_at(face.hex, face.face);
+        if (facet == kNone || wrapped(face.hex, face.face)) continue;
+        const auto nodes = face_nodes(mesh_, face);
+        const auto v = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+        pieces.push_back({facet, nodes[(v + 1) % 4], nodes[(v + 3) % 4]});
+      }
+  }
+  // Puts the faces around a node in the order in which they follow each other; false when they are no fan.
+  static bool order(std::vector<Piece>& pieces) {
+    const auto follows = [&](const Piece& p) {
+      return std::find_if(pieces.begin(), pieces.end(),
+                          [&](const Piece& q) { return q.previous == p.next; }) != pieces.end();
+    };
+    const auto start = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return !follows(p); });
+    if (start != pieces.end()) std::iter_swap(pieces.begin(), start);
+    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+      const auto next = std::find_if(pieces.begin() + static_cast<std::ptrdiff_t>(i) + 1, pieces.end(),
+                                     [&](const Piece& q) { return q.next == pieces[i].previous; });
+      if (next == pieces.end()) return false;
+      std::iter_swap(pieces.begin() + static_cast<std::ptrdiff_t>(i) + 1, next);
+    }
+    return true;
+  }
+
+  // A copy in a mesh with an exterior. It stays on the faces that its group keeps there. Between faces of
+  // different surfaces it keeps to their edge. Where the faces of one surface do not lie in one plane, nothing
+  // that it could do there leaves the shape quite as it is: the middle one of its faces, or the edge between
+  // the two middle ones, does least harm and leaves the angles wide.
+  void add_held(LocalId node, std::span<const std::int32_t> items, GlobalId copy, const Vec3& way,
+                std::uint8_t sides) {
+    const Vec3& p = mesh_.position[at(node)];
+    Exterior& exterior = result_.mesh.exterior;
+    add_pieces(node, group_, pieces_);
+    add_node(node, copy, p + way, pieces_.empty() ? std::uint8_t{0} : sides);
+    exterior.hold_of.back() = kNone;
+    if (pieces_.empty()) return;
+    add_pieces(node, items, all_pieces_);
+    if (all_pieces_.size() == pieces_.size() && !at_kept_face(items)) {  // it takes the place of the node
+      exterior.hold_of.back() = mesh_.exterior.hold_of[at(node)];
+      result_.mesh.position.back() = p;
+      return;
+    }
+    const LocalId hold = hold_for_pieces();
+    exterior.hold_of.back() = hold;
+    Vec3 q = exterior.nearest(hold, p + way);
+    if (norm(q - p) < kLeastOfWay * norm(way)) {  // the way leads across the surface
+      const Hold& h = exterior.holds[at(hold)];
+      Vec3 there;
+      if (h.kind == Hold::Kind::kLine) {
+        there = norm(h.line[0] - p) > norm(h.line[2] - p) ? h.line[0] : h.line[2];
+      } else {
+        for (auto i = h.first; i < h.last; ++i)
+          for (const Vec3& corner : exterior.facets[at(exterior.patch[static_cast<std::size_t>(i)])].corner)
+            there += (0.25 / (h.last - h.first)) * corner;
+      }
+      q = exterior.nearest(hold, p + (0.5 * rules_.offset) * (there - p));
+    }
+    result_.mesh.position.back() = q;
+  }
+  // Whether the old node stays on a wrapped face of the boundary.
+  [[nodiscard]] bool at_kept_face(std::span<const std::int32_t> items) const {
+    for (const std::int32_t item : items)
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)])
+        if (neighbours_[at(item / 8)][static_cast<std::size_t>(f)] == kNone && wrapped(item / 8, f))
+          return true;
+    return false;
+  }
+  LocalId hold_for_pieces() {
+    Exterior& exterior = result_.mesh.exterior;
+    const auto facet = [&](std::size_t i) -> const Facet& { return exterior.facets[at(pieces_[i].facet)]; };
+    const auto on_surface = [&](std::size_t first, std::size_t last) {
+      patch_.clear();
+      for (std::size_t i = first; i < last; ++i) patch_.push_back(pieces_[i].facet);
+      std::sort(patch_.begin(), patch_.end());
+      patch_.erase(std::unique(patch_.begin(), patch_.end()), patch_.end());
+      return exterior.add_surface(patch_);
+    };
+    const auto on_edge = [&](std::size_t i) {
+      std::array<Vec3, 2> ends;
+      return common_edge(facet(i), facet(i + 1), ends) ? exterior.add_line({ends[0], ends[0], ends[1]})
+                                                       : on_surface(0, pieces_.size());
+    };
+    const std::size_t n = pieces_.size();
+    if (!order(pieces_)) return on_surface(0, n);
+    bool flat = true;
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      if (facet(i).surface != facet(i + 1).surface) return on_edge(i);
+      flat = flat && (pieces_[i].facet == pieces_[i + 1].facet || coplanar(facet(i), facet(i + 1)));
+    }
+    if (flat || exterior.slides) return on_surface(0, n);
+    if (n % 2 == 1) return on_surface(n / 2, n / 2 + 1);
+    const std::size_t middle = n / 2 - 1;
+    const bool level =
+        pieces_[middle].facet == pieces_[middle + 1].facet || coplanar(facet(middle), facet(middle + 1));
+    return level ? on_surface(middle, middle + 2) : on_edge(middle);
+  }
+  // An old node whose faces on the exterior went to a copy goes inside, towards the hexes that keep it.
+  void leave_exterior(LocalId node, std::span<const std::int32_t> items) {
+    if (mesh_.exterior.empty()) return;
+    const LocalId old = first_[at(node)];
+    if (mesh_.exterior.hold_of[at(node)] == kNone) return;
+    result_.mesh.exterior.hold_of[at(old)] = kNone;
+    const auto keeps = [&](std::int32_t item) {
+      return corner_[at(item / 8)][static_cast<std::size_t>(item % 8)] == old;
+    };
+    const bool some_keep = std::any_of(items.begin(), items.end(), keeps);
+    Vec3 sum;
+    int count = 0;
+    for (const std::int32_t item : items) {
+      if (some_keep && !keeps(item)) continue;
+      for (const LocalId n : mesh_.hexes[at(item / 8)]) sum += mesh_.position[at(n)];
+      count += 8;
+    }
+    result_.mesh.position[at(old)] += rules_.offset * ((1.0 / count) * sum - mesh_.position[at(node)]);
+  }
+  // The faces of the new hexes that are parts of the old ones on the exterior.
+  void follow_exterior() {
+    Exterior& exterior = result_.mesh.exterior;
+    for (const auto& [hex, face, facet] : mesh_.exterior.faces) {
+      if (start_[at(hex)] == kNone) continue;
+      if (wrapped(hex, face)) {
+        exterior.faces.push_back({on_face({hex, face}), kTop, facet});
+        continue;
+      }
+      exterior.faces.push_back({start_[at(hex)], face, facet});
+      for (int g = 0; g < 6; ++g)
+        if (const int side = side_over(g, face); side >= 0 && wrapped(hex, g))
+          exterior.faces.push_back({on_face({hex, g}), side, facet});
+    }
+    std::sort(exterior.faces.begin(), exterior.faces.end(), [](const ExteriorFace& a, const ExteriorFace& b) {
+      return std::pair(a.hex, a.face) < std::pair(b.hex, b.face);
+    });
   }
 
   // The way from the node into its group or, where an interface runs through the group, along that, to the
@@ -244,6 +411,8 @@ class Pillower {
   // Whether a face that is not wrapped lies on an interface.
   [[nodiscard]] bool on_interface(HexFace face) const {
     const LocalId other = neighbours_[at(face.hex)][static_cast<std::size_t>(face.face)];
+    if (other == kNone && !mesh_.exterior.empty())
+      return mesh_.exterior.facet_at(face.hex, face.face) == kNone;
     return other == kNone ? face_sides(mesh_, face.hex, face.face) == 0
                           : mesh_.material[at(other)] != mesh_.material[at(face.hex)];
   }
@@ -403,6 +572,8 @@ class Pillower {
   std::vector<LocalId> start_;  // per old hex: its new number, followed by those of the hexes on its faces
   std::vector<std::int32_t> group_;
   std::vector<LocalId> inner_, outer_;
+  std::vector<Piece> pieces_, all_pieces_;
+  std::vector<LocalId> patch_;
   std::vector<std::uint8_t> done_;
   InterfaceThrough through_;
   Pillowed result_;

@@ -41,7 +41,9 @@ Vec3 towards_neighbours(const HexMesh& mesh, const NodeHexes& around, LocalId no
       sum += mesh.position[at(other)];
       ++count;
     }
-  return count > 0 ? held_on_box((1.0 / count) * sum - mesh.position[at(node)], sides) : Vec3{};
+  if (count == 0) return {};
+  const Vec3& here = mesh.position[at(node)];
+  return held(mesh, node, here, (1.0 / count) * sum - here);
 }
 
 void laplacian_passes(HexMesh& mesh, const NodeHexes& around, const Geometry& geometry, int passes,

@@ -40,13 +40,29 @@ bool newton_direction(const double (&hessian)[6], const Vec3& g, Vec3& d) {
   return false;
 }
 
-// Takes held axes out of the problem.
-void hold_axes(std::uint8_t sides, double (&h)[6], Vec3& g) {
+// Takes the directions in which the node cannot move out of the problem.
+void restrict_to(const Freedom& free, double (&h)[6], Vec3& g) {
   const double trace = h[0] + h[3] + h[5];
+  if (free.dimensions < 3) {
+    g = free.along(g);
+    std::array<Vec3, 3> rows{Vec3{h[0], h[1], h[2]}, Vec3{h[1], h[3], h[4]}, Vec3{h[2], h[4], h[5]}};
+    for (Vec3& row : rows) row = free.along(row);
+    const std::array<Vec3, 3> columns{free.along({rows[0].x, rows[1].x, rows[2].x}),
+                                      free.along({rows[0].y, rows[1].y, rows[2].y}),
+                                      free.along({rows[0].z, rows[1].z, rows[2].z})};
+    constexpr std::size_t kEntry[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto [i, j] = kEntry[e];
+      Vec3 axis;
+      axis[i] = 1;
+      h[e] = columns[j][i] + trace * (axis - free.along(axis))[j];
+    }
+    return;
+  }
   constexpr int kDiagonal[3] = {0, 3, 5};
   constexpr int kOff[3][2] = {{1, 2}, {1, 4}, {2, 4}};
   for (std::size_t d = 0; d < 3; ++d) {
-    if (!(sides & kAxisSides[d])) continue;
+    if (!(free.fixed_axes & kAxisSides[d])) continue;
     g[d] = 0;
     h[kOff[d][0]] = h[kOff[d][1]] = 0;
     h[kDiagonal[d]] = trace;
@@ -87,7 +103,7 @@ double NodeStep::price(LocalId node, const StepRules& rules) const {
 }
 
 Vec3 NodeStep::towards_geometry(LocalId node, const Vec3& from) const {
-  return held_on_box(geometry_.onto(geometry_.index[at(node)], from) - from, mesh_.box_sides[at(node)]);
+  return held(mesh_, node, from, geometry_.onto(geometry_.index[at(node)], from) - from);
 }
 
 // A node that is beyond the limit already may come nearer.
@@ -100,6 +116,12 @@ bool NodeStep::too_far(LocalId node, const Vec3& step, double farthest) const {
   return distance > limit(node, farthest) && distance >= norm(towards_geometry(node, here));
 }
 
+Vec3 NodeStep::landed(LocalId node, const Freedom& free, const Vec3& step, const Vec3& scale) const {
+  if (free.dimensions == 3) return step;
+  const Vec3 per_scale{1 / scale.x, 1 / scale.y, 1 / scale.z};
+  return scaled(held(mesh_, node, mesh_.position[at(node)], scaled(step, per_scale)), scale);
+}
+
 bool NodeStep::fit(LocalId node, const StepRules& rules) {
   const Vec3 scale = scale_at(node);
   star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale, Star::Target::kPresent);
@@ -107,6 +129,7 @@ bool NodeStep::fit(LocalId node, const StepRules& rules) {
   Vec3& p = mesh_.position[at(node)];
   Vec3 move = towards_geometry(node, p);
   for (int halving = 0; halving < 4; ++halving, move = 0.5 * move) {
+    move = held(mesh_, node, p, move);
     const Star::Shape there = star_.shape(scaled(move, scale));
     if (there.scaled_jacobian < std::min(now.scaled_jacobian, rules.least_quality) ||
         there.edge < std::min(now.edge, rules.least_edge))
@@ -128,7 +151,7 @@ bool NodeStep::pull_back(LocalId node, double farthest) {
     const Vec3 back = towards_geometry(node, p);
     const double distance = norm(back);
     if (!(distance > most)) break;
-    p += i < kCareful ? (1 - kInside * most / distance) * back : back;
+    p += i < kCareful ? held(mesh_, node, p, (1 - kInside * most / distance) * back) : back;
     moved = true;
   }
   return moved;
@@ -151,11 +174,12 @@ bool NodeStep::newton(LocalId node, const StepRules& rules) {
     for (std::size_t i = 0; i < 6; ++i) at0.hessian[i] += 2 * price_of * w[i];
     at0.energy += price_of * quadratic(w, off);
   }
-  const std::uint8_t sides = mesh_.box_sides[at(node)];
-  hold_axes(sides, at0.hessian, at0.gradient);
+  const Freedom free = freedom(mesh_, node, mesh_.position[at(node)]);
+  if (free.dimensions == 0) return false;
+  restrict_to(free, at0.hessian, at0.gradient);
   Vec3 step;
   if (!newton_direction(at0.hessian, at0.gradient, step)) return false;
-  step = held_on_box(step, sides);
+  step = free.along(step);
   const double longest = kStepOfEdge * std::max(star_.shortest_edge(), kStepFloor), length = norm(step);
   if (length > longest) step = (longest / length) * step;
   if (!(std::min(length, longest) >= rules.least_move)) return false;
@@ -166,7 +190,9 @@ bool NodeStep::newton(LocalId node, const StepRules& rules) {
     const Star::Shape now = star_.shape({});
     floor = {std::min(now.scaled_jacobian, rules.least_quality), std::min(now.edge, rules.least_edge)};
   }
-  for (int halving = 0; halving < 6; ++halving, step = 0.5 * step) {
+  const Vec3 towards = step;
+  for (int halving = 0; halving < 6; ++halving) {
+    step = landed(node, free, std::ldexp(1.0, -halving) * towards, scale);
     const Star::Value there = star_.value(step, rules.power, rules.eps);
     const double energy = entry == kNone
                               ? there.energy
@@ -191,9 +217,10 @@ bool NodeStep::climb(LocalId node, const StepRules& rules) {
   bool any = false;
   Vec3& p = mesh_.position[at(node)];
   const Vec3 scale = scale_at(node);
-  const std::uint8_t sides = mesh_.box_sides[at(node)];
   const bool limited = geometry_.index[at(node)] != kNone && std::isfinite(rules.farthest);
   for (int round = 0; round < 5; ++round) {
+    const Freedom free = freedom(mesh_, node, p);
+    if (free.dimensions == 0) return false;
     star_.gather(mesh_.hexes, mesh_.position, around_[node], node, scale, Star::Target::kPresent);
     const Star::Shape now = star_.shape({});
     // Gradients of the corners near the worst one: differences of the exact corner values.
@@ -215,7 +242,7 @@ bool NodeStep::climb(LocalId node, const StepRules& rules) {
           moved[moving][d] -= 2 * kDifference;
           gradient[d] = (ahead - corner_scaled_jacobian(moved, c)) / (2 * kDifference);
         }
-        corners.emplace_back(here, held_on_box(gradient, sides));
+        corners.emplace_back(here, free.along(gradient));
       }
     }
     std::stable_sort(corners.begin(), corners.end(),
@@ -233,9 +260,10 @@ bool NodeStep::climb(LocalId node, const StepRules& rules) {
       up += std::min(share, 1.0) * towards;
     }
     if (norm(up) < 1e-4) break;
-    Vec3 step = (0.25 * now.edge) * unit(up);
+    const Vec3 upwards = (0.25 * now.edge) * unit(up);
     bool raised = false;
-    for (int halving = 0; halving < 7 && !raised; ++halving, step = 0.5 * step) {
+    for (int halving = 0; halving < 7 && !raised; ++halving) {
+      const Vec3 step = landed(node, free, std::ldexp(1.0, -halving) * upwards, scale);
       const Star::Shape there = star_.shape(step);
       if (there.scaled_jacobian <= now.scaled_jacobian + 1e-4 ||
           there.edge < std::min(now.edge, rules.least_edge))

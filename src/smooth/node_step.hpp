@@ -47,6 +47,8 @@ class NodeStep {
   [[nodiscard]] Vec3 towards_geometry(LocalId node, const Vec3& from) const;
 
  private:
+  // A step (in units of 1/scale) that ends on the exterior, where the node is on one.
+  [[nodiscard]] Vec3 landed(LocalId node, const Freedom& free, const Vec3& step, const Vec3& scale) const;
   [[nodiscard]] bool too_far(LocalId node, const Vec3& step, double farthest) const;
   [[nodiscard]] double price(LocalId node, const StepRules& rules) const;
   [[nodiscard]] Vec3 deviation(LocalId entry, LocalId node) const;

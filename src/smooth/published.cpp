@@ -53,9 +53,9 @@ class NodeOptimiser {
     return proposal;
   }
 
-  // An interface node back to its surface, after a move that was not made in full.
+  // A node back to its interface and to the boundary, after a move that was not made in full.
   [[nodiscard]] Vec3 on_surface(LocalId node, const Vec3& p) const {
-    return slides(node) ? projected(node, p) : p;
+    return slides(node) ? projected(node, p) : p + held(mesh_, node, p, {});
   }
 
  private:
@@ -65,7 +65,7 @@ class NodeOptimiser {
     return entry != kNone && !geometry_.on_curve[at(entry)];
   }
   [[nodiscard]] Vec3 projected(LocalId node, const Vec3& p) const {
-    return p + held_on_box(geometry_.onto(geometry_.index[at(node)], p) - p, mesh_.box_sides[at(node)]);
+    return p + held(mesh_, node, p, geometry_.onto(geometry_.index[at(node)], p) - p);
   }
   // The normal of a surface node: the direction in which its weight exceeds that of sliding.
   [[nodiscard]] Vec3 normal(LocalId entry) const {
@@ -97,8 +97,9 @@ class NodeOptimiser {
       const Vec3 u = unit(axes[across] - n[across] * n);
       axes = {u, cross(n, u), Vec3{}};
     }
+    const Freedom free = freedom(mesh_, node, mesh_.position[at(node)]);
     for (const Vec3& axis : axes) {
-      const Vec3 kept = held_on_box(axis, mesh_.box_sides[at(node)]);
+      const Vec3 kept = free.along(axis);
       if (norm(kept) > 1e-6) directions.push_back(unit(kept));
     }
     return directions;
@@ -125,7 +126,10 @@ class NodeOptimiser {
     bool found = false;
     for (int i = 0; i <= kBisections; ++i) {
       Vec3 there = from + length * direction;
-      if (slides(node)) there = scale_ * (projected(node, start + (1 / scale_) * there) - start);
+      if (slides(node))
+        there = scale_ * (projected(node, start + (1 / scale_) * there) - start);
+      else if (!mesh_.exterior.empty())
+        there = scale_ * held(mesh_, node, start, (1 / scale_) * there);
       const NodeObjective::Value value = objective_.at_displacement(there);
       const bool better = value.quality() > best.quality() && value.negative <= most_negative;
       if (better) {

@@ -378,7 +378,7 @@ class Phases {
     beyond = set_.comm().sum(beyond);
     if (beyond > 0)
       log_.line("WARNING: {} interface nodes are farther from it than {:g}{}", beyond, options_.max_deviation,
-                options_.deviation_by_level && !mesh_.level.empty() ? " at level 0" : "");
+                options_.deviation_by_level && !mesh_.node_unit.empty() ? " at level 0" : "");
   }
 
   // The Jacobian can fail inside a hex whose corners are fine: more shape for the nodes of such hexes. Tells

@@ -147,7 +147,8 @@ class Corrector {
       }
     }
     for (std::size_t n = 0; n < of.size(); ++n)
-      for (Gradient& g : of[n]) g.by = held_on_box(g.by, mesh_.box_sides[n]);
+      for (Gradient& g : of[n])
+        g.by = freedom(mesh_, static_cast<LocalId>(n), mesh_.position[n]).along(g.by);
     return of;
   }
 
@@ -170,8 +171,9 @@ class Corrector {
       for (const Gradient& g : of[n]) way += (unit * pressure[at(g.place)] / scale) * g.by;
       const double length = norm(way);
       if (length > farthest) way = (farthest / length) * way;
+      const Vec3 step = held(mesh_, static_cast<LocalId>(n), mesh_.position[n], scaled(way, mesh_.cell_size));
       for (std::size_t d = 0; d < 3; ++d)
-        if (way[d] != 0) mesh_.position[n][d] += way[d] * mesh_.cell_size[d];
+        if (step[d] != 0) mesh_.position[n][d] += step[d];
     }
     share_positions(mesh_);
     take_back_harm(before);

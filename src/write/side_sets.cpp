@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "sculpt/deck/deck.hpp"
+#include "sculpt/mesh/edge_walk.hpp"
 
 namespace sculpt {
 namespace {
@@ -155,16 +156,6 @@ class Planner {
   std::vector<First> firsts_;
 };
 
-// The side of a buffer hex on face g over the edge that g shares with face f; -1 when they share none.
-int side_over(int g, int f) {
-  const auto& on = kFaces[static_cast<std::size_t>(f)];
-  const auto& corners = kFaces[static_cast<std::size_t>(g)];
-  const auto shared = [&](std::size_t v) { return std::find(on.begin(), on.end(), corners[v]) != on.end(); };
-  for (std::size_t v = 0; v < 4; ++v)
-    if (shared(v) && shared((v + 1) % 4)) return static_cast<int>(v);
-  return -1;
-}
-
 // A face of an owned hex on a side of the box (bit number of the BoxSide).
 struct FaceOnSide {
   LocalId hex;
@@ -264,7 +255,7 @@ class Finder {
     }
     next_.push_back({old, face});
     for (int g = 0; g < 6; ++g)
-      if (const int side = g == face ? -1 : side_over(g, face); side >= 0 && exists(old + g + 1))
+      if (const int side = side_over(g, face); side >= 0 && exists(old + g + 1))
         next_.push_back({old + g + 1, side});
   }
 

@@ -23,7 +23,7 @@ Overlay overlay(const Comm& comm, const Case& input, int layers) {
     o.cells.cell_size = input.cell_size;
     const IndexBox nodes{{0, 0, 0},
                          {input.grid.cells[0] + 1, input.grid.cells[1] + 1, input.grid.cells[2] + 1}};
-    for (const GlobalId n : o.cells.node_id) o.cells.level.push_back(input.level(nodes.cell(n)));
+    for (const GlobalId n : o.cells.node_id) o.cells.node_unit.push_back(std::ldexp(1.0F, -input.level(nodes.cell(n))));
   }
   assign_materials(o.cells, o.fractions, face_neighbours(o.cells));
   return o;
@@ -69,7 +69,7 @@ Overlay irregular(const Comm& comm, const Index3& cells, std::int32_t grains, st
   for (const GlobalId id : grid.hex_id) label.push_back(in_middle(whole(cells).cell(id)));
   Overlay o{pillow(comm, grid, face_neighbours(grid), label, {}, {.offset = 0.4}).mesh, {}};
   o.cells.node_exchange.copy_to_ghosts(o.cells.position);
-  o.cells.level.assign(o.cells.position.size(), 0);
+  o.cells.node_unit.assign(o.cells.position.size(), 1);
   std::vector<Vec3> points;
   for (std::uint64_t g = 0; g < 3 * static_cast<std::uint64_t>(grains); g += 3)
     points.push_back({static_cast<double>(cells[0]) * scatter_unit(seed, g),
@@ -79,7 +79,7 @@ Overlay irregular(const Comm& comm, const Index3& cells, std::int32_t grains, st
     Vec3 centre;
     for (const LocalId n : o.cells.hexes[at(h)]) {
       centre += 0.125 * o.cells.position[at(n)];
-      if (o.cells.hex_id[at(h)] % 8 != 0) o.cells.level[at(n)] = 1;
+      if (o.cells.hex_id[at(h)] % 8 != 0) o.cells.node_unit[at(n)] = 0.5F;
     }
     const auto nearest = std::min_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
       return dot(a - centre, a - centre) < dot(b - centre, b - centre);
@@ -87,7 +87,7 @@ Overlay irregular(const Comm& comm, const Index3& cells, std::int32_t grains, st
     o.fractions.add(static_cast<std::int32_t>(nearest - points.begin()), 1);
     o.fractions.end_cell();
   }
-  o.cells.node_exchange.copy_to_ghosts(o.cells.level);
+  o.cells.node_exchange.copy_to_ghosts(o.cells.node_unit);
   colour_nodes(o.cells, std::vector<std::uint8_t>(o.cells.position.size(), kNoColour));
   assign_materials(o.cells, o.fractions, face_neighbours(o.cells));
   return o;

@@ -35,6 +35,17 @@ inline constexpr std::array<std::array<std::array<int, 2>, 8>, 8> kEdgeFaces = [
   return faces;
 }();
 
+// The corner of face g (an index into kFaces[g]) at which the edge begins that it shares with face f of the
+// same hex; -1 when they share none.
+[[nodiscard]] constexpr int side_over(int g, int f) {
+  const auto& on = kFaces[static_cast<std::size_t>(f)];
+  const auto& corners = kFaces[static_cast<std::size_t>(g)];
+  const auto shared = [&](std::size_t v) { return std::find(on.begin(), on.end(), corners[v]) != on.end(); };
+  for (std::size_t v = 0; g != f && v < 4; ++v)
+    if (shared(v) && shared((v + 1) % 4)) return static_cast<int>(v);
+  return -1;
+}
+
 struct HexFace {
   LocalId hex;
   int face;

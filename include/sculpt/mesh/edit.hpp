@@ -28,7 +28,8 @@ std::vector<LocalId> drop_unused_nodes(HexMesh& mesh);
 void transform(HexMesh& mesh, const Vec3& scale, const Vec3& translate);
 
 // Collective. Takes away hexes (remove: per local hex, 1 = by its owner) and the nodes that no hex uses any
-// more; ids stay. Answers with the new index of each old hex, kNone = removed.
+// more; ids stay. The exterior is no more than it was: faces that come to light
+// are no part of it. Answers with the new index of each old hex, kNone = removed.
 std::vector<LocalId> remove_hexes(const Comm& comm, HexMesh& mesh, std::vector<std::uint8_t> remove);
 
 }  // namespace sculpt

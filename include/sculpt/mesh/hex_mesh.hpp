@@ -24,6 +24,7 @@
 #include "sculpt/base/types.hpp"
 #include "sculpt/base/vec3.hpp"
 #include "sculpt/geom/hex.hpp"
+#include "sculpt/mesh/exterior.hpp"
 #include "sculpt/par/ghost_exchange.hpp"
 
 namespace sculpt {
@@ -40,11 +41,12 @@ struct HexMesh {
   std::vector<Vec3> position;
   std::vector<GlobalId> node_id;         // key that does not depend on the number of ranks, ascending
   std::vector<std::int32_t> node_owner;  // rank; of images: rank + number of ranks
-  std::vector<std::uint8_t> box_sides;   // sides of the domain box that hold the node
+  std::vector<std::uint8_t> box_sides;   // sides of the domain that hold the node: of its box (BoxSide), or
+                                         // surfaces of its exterior, which share bits where they never meet
   std::vector<std::uint8_t>
       colour;                       // nodes of one colour share no hex unless they stem from one overlay node
-  std::vector<std::uint8_t> level;  // the smallest cells around the node have 2^-level times the cell size;
-                                    // empty: 0 everywhere, as in every lattice
+  std::vector<float> node_unit;     // size of the smallest cells around the node, in units of cell_size;
+                                    // empty: 1 everywhere, as in every lattice
 
   // Hexes.
   std::vector<Hex> hexes;               // Exodus corner order, local node indices
@@ -59,6 +61,8 @@ struct HexMesh {
   Vec3 period{0, 0, 0};   // per axis; 0 = not periodic
   Vec3 quantum{0, 0, 0};  // powers of two that positions are multiples of; 0 = of nothing
 
+  Exterior exterior;  // of a domain that is no box; else empty
+
   GhostExchange node_exchange;  // ghost nodes take their owners' values
   GhostExchange hex_exchange;   // likewise for hexes
   int ghost_layers = 0;         // of hexes around the owned ones, where the domain has them
@@ -69,10 +73,10 @@ struct HexMesh {
 
   [[nodiscard]] LocalId nodes() const { return static_cast<LocalId>(position.size()); }
   [[nodiscard]] LocalId size() const { return static_cast<LocalId>(hexes.size()); }
-  // Lengths "in cells" are those of the cells at a node. The size of these in units of cell_size, exactly,
-  // and what turns a vector into cells.
+  // Lengths "in cells" are those of the cells at a node. The size of these in units of cell_size (exactly, in
+  // refined grids), and what turns a vector into cells.
   [[nodiscard]] double unit(LocalId node) const {
-    return level.empty() ? 1.0 : 1.0 / static_cast<double>(std::uint64_t{1} << level[at(node)]);
+    return node_unit.empty() ? 1.0 : static_cast<double>(node_unit[at(node)]);
   }
   [[nodiscard]] Vec3 per_cell(LocalId node) const {
     const double u = unit(node);
@@ -80,7 +84,7 @@ struct HexMesh {
   }
   // Hexes count in the smallest cells at their nodes.
   [[nodiscard]] double hex_unit(LocalId hex) const {
-    if (level.empty()) return 1.0;
+    if (node_unit.empty()) return 1.0;
     double least = 1;
     for (const LocalId n : hexes[at(hex)]) least = std::min(least, unit(n));
     return least;
@@ -115,6 +119,29 @@ struct HexMesh {
     if (sides & kAxisSides[d]) move[d] = 0;
   return move;
 }
+
+// Local. What is left of the displacement of a node that is at `from`, on the boundary, when the node stays
+// on the boundary: its component along the sides of the box that hold it, or the way to the nearest point of
+// the exterior that it may go to.
+[[nodiscard]] inline Vec3 held(const HexMesh& mesh, LocalId node, const Vec3& from, const Vec3& move) {
+  if (mesh.exterior.empty()) return held_on_box(move, mesh.box_sides[at(node)]);
+  const LocalId hold = mesh.exterior.hold_of[at(node)];
+  return hold == kNone ? move : mesh.exterior.nearest(hold, from + move) - from;
+}
+
+// Local. The directions in which a node at p may begin to move.
+struct Freedom {
+  std::uint8_t fixed_axes = 0;  // bits of BoxSide: no component along these axes
+  int dimensions = 3;           // on an exterior
+  Vec3 direction;               // the normal when there are 2, the tangent when there is 1
+
+  [[nodiscard]] Vec3 along(const Vec3& v) const {
+    if (dimensions == 3) return held_on_box(v, fixed_axes);
+    if (dimensions == 2) return v - dot(v, direction) * direction;
+    return dimensions == 1 ? dot(v, direction) * direction : Vec3{};
+  }
+};
+[[nodiscard]] Freedom freedom(const HexMesh& mesh, LocalId node, const Vec3& p);
 
 // Collective. Makes both exchanges anew from ids, homes and owners.
 void connect_ranks(const Comm& comm, HexMesh& mesh);

@@ -13,7 +13,8 @@ namespace sculpt {
 struct PillowRules {
   double offset = 0.3;           // of the way from a node to the middle of its hexes, for copies
   bool along_edges = false;      // to the middle of the edges into the set instead: for sets of thin layers
-  std::uint8_t box_sides = 0;    // sides of the box (BoxSide) whose faces are wrapped as well
+  std::uint8_t box_sides = 0;    // sides of the box (BoxSide) whose faces are wrapped as well; of an
+                                 // exterior all faces are, unless 0
   bool with_neighbours = false;  // of the result
 };
 
@@ -36,7 +37,8 @@ struct Pillowed {
 // Collective. neighbours: of the mesh; label: per hex the set it belongs to, below 0 = none; drop: per hex,
 // not part of the result (the sets see it all the same); may be empty. Every hex of a set receives one new
 // hex on each face towards a hex outside its set and on each face on one of rules.box_sides; other faces
-// without a neighbour receive none: the layers end there. The new hexes lie between copies of the old nodes,
+// without a neighbour receive none: the layers end there. Facets towards cells that
+// stay as they are (Facet::kept) are wrapped as well, so that they are not cut. The new hexes lie between copies of the old nodes,
 // moved towards the inside, and the old nodes, which stay. A copy stays on the sides of the box on which the
 // hexes that take it keep a face, and on the interfaces that run through their set. Uses up one ghost layer
 // of the old mesh.

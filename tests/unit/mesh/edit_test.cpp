@@ -42,13 +42,13 @@ TEST(RemoveHexes, TakesTheirNodesAlongAndKeepsIds) {
   EXPECT_EQ(test::conformity_problem(mesh, 0), "");
 }
 
-TEST(RemoveHexes, KeepsTheLevelsOfTheNodesThatStay) {
+TEST(RemoveHexes, KeepsTheSizesAroundTheNodesThatStay) {
   HexMesh mesh = row(3);
-  for (LocalId n = 0; n < mesh.nodes(); ++n) mesh.level.push_back(static_cast<std::uint8_t>(n % 4));
+  for (LocalId n = 0; n < mesh.nodes(); ++n) mesh.node_unit.push_back(static_cast<float>(n % 4));
   mesh.lattice = {0, 0, 0};
   (void)remove_hexes(Comm::self(), mesh, std::vector<std::uint8_t>{1, 0, 0});
-  ASSERT_EQ(mesh.level.size(), mesh.position.size());
-  for (LocalId n = 0; n < mesh.nodes(); ++n) EXPECT_EQ(mesh.level[at(n)], mesh.position[at(n)].x);
+  ASSERT_EQ(mesh.node_unit.size(), mesh.position.size());
+  for (LocalId n = 0; n < mesh.nodes(); ++n) EXPECT_EQ(mesh.node_unit[at(n)], mesh.position[at(n)].x);
 }
 
 TEST(HexMesh, LengthsInCellsAreThoseOfTheSmallestCellsAround) {
@@ -57,8 +57,8 @@ TEST(HexMesh, LengthsInCellsAreThoseOfTheSmallestCellsAround) {
   EXPECT_EQ(mesh.unit(0), 1);
   EXPECT_EQ(mesh.hex_unit(0), 1);
   EXPECT_EQ(mesh.per_cell(0), (Vec3{0.5, 0.25, 0.125}));
-  mesh.level.assign(mesh.position.size(), 0);
-  mesh.level[at(mesh.hexes[0][3])] = 2;
+  mesh.node_unit.assign(mesh.position.size(), 1);
+  mesh.node_unit[at(mesh.hexes[0][3])] = 0.25F;
   EXPECT_EQ(mesh.unit(mesh.hexes[0][3]), 0.25);
   EXPECT_EQ(mesh.per_cell(mesh.hexes[0][3]), (Vec3{2, 1, 0.5}));
   EXPECT_EQ(mesh.hex_unit(0), 0.25);

@@ -74,7 +74,7 @@ void expect_good(const test::Case& input, const StagesResult& r, double least) {
   EXPECT_GE(s.least, least) << input.name;
   EXPECT_EQ(s.not_positive_inside, 0) << input.name;
   EXPECT_GE(s.shortest_edge_cells, 0.06) << input.name;
-  EXPECT_EQ(r.mesh.level.size(), r.mesh.position.size());
+  EXPECT_EQ(r.mesh.node_unit.size(), r.mesh.position.size());
 }
 
 // Largest and mean distance of interface nodes inside the box from a surface, in cells.

@@ -1,0 +1,233 @@
+#include "sculpt/brep/exterior.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sculpt/par/components.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr double kStraight = 1e-9;  // sine of the angle between two edges that count as one line
+constexpr double kTurn = 45;        // degrees: a curve that turns by more has a vertex there (when sliding)
+constexpr int kSides = 8;           // bits of box_sides
+
+// A face of the mesh that is a facet, and an edge of one.
+struct FacetNodes {
+  LocalId cell;
+  int face;
+  std::array<LocalId, 4> node;
+  std::int64_t label;
+};
+struct FacetEdge {
+  LocalId a, b, facet;  // a < b
+  auto operator<=>(const FacetEdge&) const = default;
+};
+
+class ExteriorFinder {
+ public:
+  ExteriorFinder(const Comm& comm, HexMesh& cells, const FaceNeighbours& neighbours,
+                 std::span<const std::uint8_t> kept, const ExteriorOptions& options)
+      : comm_(comm),
+        cells_(cells),
+        neighbours_(neighbours),
+        kept_(kept),
+        options_(options),
+        least_cosine_(std::cos((180 - options.feature_angle) * std::numbers::pi / 180)) {}
+
+  void run() {
+    out_.slides = options_.slides;
+    find_complete_nodes();
+    find_facets();
+    find_edges();
+    find_surfaces();
+    number_sides();
+    hold_nodes();
+    cells_.exterior = std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] bool kept(LocalId cell) const { return !kept_.empty() && kept_[at(cell)] != 0; }
+
+  // Nodes all of whose cells are here.
+  void find_complete_nodes() {
+    complete_.assign(cells_.position.size(), 0);
+    for (LocalId c = 0; c < cells_.size(); ++c)
+      if (cells_.layer[at(c)] < cells_.ghost_layers)
+        for (const LocalId n : cells_.hexes[at(c)]) complete_[at(n)] = 1;
+  }
+
+  // A face without a neighbour is known to be on the boundary when one of its nodes is complete.
+  void find_facets() {
+    for (LocalId c = 0; c < cells_.size(); ++c) {
+      if (kept(c)) continue;
+      for (int f = 0; f < 6; ++f) {
+        const LocalId other = neighbours_[at(c)][static_cast<std::size_t>(f)];
+        if (other != kNone && !kept(other)) continue;
+        FacetNodes nodes{c, f, {}, options_.label ? options_.label(c, f) : 0};
+        bool known = false;
+        for (std::size_t v = 0; v < 4; ++v) {
+          nodes.node[v] =
+              cells_.hexes[at(c)][static_cast<std::size_t>(kFaces[static_cast<std::size_t>(f)][v])];
+          known = known || complete_[at(nodes.node[v])] != 0;
+        }
+        if (!known) continue;
+        std::rotate(nodes.node.begin(), std::min_element(nodes.node.begin(), nodes.node.end()),
+                    nodes.node.end());
+        Facet facet;
+        for (std::size_t v = 0; v < 4; ++v) facet.corner[v] = cells_.position[at(nodes.node[v])];
+        facet.kept = other != kNone;
+        out_.faces.push_back({c, f, static_cast<LocalId>(facets_.size())});
+        out_.facets.push_back(facet);
+        facets_.push_back(nodes);
+      }
+    }
+  }
+
+  void find_edges() {
+    edges_.reserve(4 * facets_.size());
+    for (std::size_t f = 0; f < facets_.size(); ++f)
+      for (std::size_t v = 0; v < 4; ++v) {
+        const LocalId a = facets_[f].node[v], b = facets_[f].node[(v + 1) % 4];
+        if (complete_[at(a)] || complete_[at(b)])
+          edges_.push_back({std::min(a, b), std::max(a, b), static_cast<LocalId>(f)});
+      }
+    std::sort(edges_.begin(), edges_.end());
+  }
+  // visit(the facets' edges that are one edge), for all edges.
+  template <class Visit>
+  void for_each_edge(Visit&& visit) const {
+    for (std::size_t first = 0; first < edges_.size();) {
+      std::size_t last = first;
+      while (last < edges_.size() && edges_[last].a == edges_[first].a && edges_[last].b == edges_[first].b)
+        ++last;
+      visit(std::span(edges_).subspan(first, last - first));
+      first = last;
+    }
+  }
+
+  [[nodiscard]] bool is_feature(std::span<const FacetEdge> edge) const {
+    if (edge.size() != 2) return true;
+    const Facet &f = facet(edge[0]), &g = facet(edge[1]);
+    return f.kept != g.kept || facets_[at(edge[0].facet)].label != facets_[at(edge[1].facet)].label ||
+           dot(facet_normal(f), facet_normal(g)) < least_cosine_;
+  }
+  // Whether a node that leaves the edge changes the shape.
+  [[nodiscard]] bool is_crease(std::span<const FacetEdge> edge) const {
+    return is_feature(edge) || (!options_.slides && !coplanar(facet(edge[0]), facet(edge[1])));
+  }
+  [[nodiscard]] const Facet& facet(const FacetEdge& edge) const { return out_.facets[at(edge.facet)]; }
+
+  void find_surfaces() {
+    DisjointSets sets(facets_.size());
+    for_each_edge([&](std::span<const FacetEdge> edge) {
+      if (!is_feature(edge)) sets.join(edge[0].facet, edge[1].facet);
+    });
+    std::vector<GlobalId> ids;
+    std::vector<std::int32_t> owner;
+    for (const FacetNodes& f : facets_) {
+      ids.push_back(8 * cells_.hex_id[at(f.cell)] + f.face);
+      owner.push_back(cells_.hex_owner[at(f.cell)]);
+    }
+    Components parts = connected_components(comm_, std::move(sets), ids, GhostExchange(comm_, ids, owner));
+    surfaces_ = number_components(comm_, parts, ids);
+    for (std::size_t f = 0; f < facets_.size(); ++f) out_.facets[f].surface = parts.of[f];
+  }
+
+  // Bits for surfaces, such that two with a node in common differ, as long as there are enough.
+  void number_sides() {
+    std::vector<std::vector<std::int32_t>> at_node(cells_.position.size());
+    for (std::size_t f = 0; f < facets_.size(); ++f)
+      for (const LocalId n : facets_[f].node) at_node[at(n)].push_back(out_.facets[f].surface);
+    struct Pair {
+      std::int32_t later, earlier;
+      auto operator<=>(const Pair&) const = default;
+    };
+    std::vector<Pair> pairs;
+    const auto tidy = [](auto& list) {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    };
+    for (auto& list : at_node) {
+      tidy(list);
+      for (const std::int32_t a : list)
+        for (const std::int32_t b : list)
+          if (b < a) pairs.push_back({a, b});
+    }
+    tidy(pairs);
+    pairs = comm_.concatenate(pairs);
+    tidy(pairs);
+    std::vector<int> bit(static_cast<std::size_t>(surfaces_), 0);
+    std::size_t next = 0;
+    for (std::size_t s = 0; s < bit.size(); ++s) {
+      std::array<int, kSides> used{};
+      for (; next < pairs.size() && static_cast<std::size_t>(pairs[next].later) == s; ++next)
+        ++used[static_cast<std::size_t>(bit[static_cast<std::size_t>(pairs[next].earlier)])];
+      bit[s] = static_cast<int>(std::min_element(used.begin(), used.end()) - used.begin());
+    }
+    for (std::size_t n = 0; n < at_node.size(); ++n) {
+      unsigned sides = 0;
+      for (const std::int32_t s : at_node[n]) sides |= 1U << bit[static_cast<std::size_t>(s)];
+      cells_.box_sides[n] = static_cast<std::uint8_t>(sides);
+    }
+    cells_.node_exchange.copy_to_ghosts(cells_.box_sides);
+  }
+
+  void hold_nodes() {
+    std::vector<std::vector<LocalId>> facets_at(cells_.position.size());
+    for (std::size_t f = 0; f < facets_.size(); ++f)
+      for (const LocalId n : facets_[f].node) facets_at[at(n)].push_back(static_cast<LocalId>(f));
+    std::vector<std::vector<LocalId>> creases(cells_.position.size());
+    for_each_edge([&](std::span<const FacetEdge> edge) {
+      if (!is_crease(edge)) return;
+      creases[at(edge[0].a)].push_back(edge[0].b);
+      creases[at(edge[0].b)].push_back(edge[0].a);
+    });
+    std::vector<std::uint8_t> fixed(cells_.position.size(), 0);
+    for (LocalId c = 0; c < cells_.size(); ++c)
+      if (kept(c))
+        for (const LocalId n : cells_.hexes[at(c)]) fixed[at(n)] = 1;
+    out_.holds.push_back({});  // the one of all nodes that do not move
+    out_.hold_of.assign(cells_.position.size(), kNone);
+    for (LocalId n = 0; n < cells_.nodes(); ++n) {
+      if (fixed[at(n)])
+        out_.hold_of[at(n)] = 0;
+      else if (!facets_at[at(n)].empty())
+        out_.hold_of[at(n)] = hold_for(n, facets_at[at(n)], creases[at(n)]);
+    }
+  }
+  LocalId hold_for(LocalId n, const std::vector<LocalId>& on, const std::vector<LocalId>& creases) {
+    const bool flat = options_.slides || std::all_of(on.begin(), on.end(), [&](LocalId f) {
+                        return is_flat(out_.facets[at(f)]);
+                      });
+    if (creases.empty()) return flat ? out_.add_surface(on) : 0;
+    if (creases.size() != 2) return 0;
+    const std::array<Vec3, 3> line{cells_.position[at(creases[0])], cells_.position[at(n)],
+                                   cells_.position[at(creases[1])]};
+    const Vec3 one = unit(line[1] - line[0]), two = unit(line[2] - line[1]);
+    const double most = options_.slides ? std::sin(kTurn * std::numbers::pi / 180) : kStraight;
+    return dot(one, two) > 0 && norm(cross(one, two)) <= most ? out_.add_line(line) : 0;
+  }
+
+  const Comm& comm_;
+  HexMesh& cells_;
+  const FaceNeighbours& neighbours_;
+  std::span<const std::uint8_t> kept_;
+  const ExteriorOptions& options_;
+  double least_cosine_;  // between the normals of faces of one surface
+  std::vector<std::uint8_t> complete_;
+  std::vector<FacetNodes> facets_;
+  std::vector<FacetEdge> edges_;
+  std::int64_t surfaces_ = 0;
+  Exterior out_;
+};
+
+}  // namespace
+
+void find_exterior(const Comm& comm, HexMesh& cells, const FaceNeighbours& neighbours,
+                   std::span<const std::uint8_t> kept, const ExteriorOptions& options) {
+  ExteriorFinder(comm, cells, neighbours, kept, options).run();
+}
+
+}  // namespace sculpt

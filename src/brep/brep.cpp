@@ -155,6 +155,10 @@ int side_towards(const Image& image) {
 }
 
 int side_of_box(const HexMesh& cells, const FaceNeighbours& neighbours, LocalId cell, int face) {
+  if (!cells.exterior.empty()) {
+    const LocalId facet = cells.exterior.facet_at(cell, face);
+    return facet == kNone ? -1 : cells.exterior.facets[at(facet)].surface;
+  }
   if (side_towards(cells.image_of(cell)) >= 0) return -1;
   const LocalId other = neighbours[at(cell)][static_cast<std::size_t>(face)];
   if (other != kNone) return side_towards(cells.image_of(other));

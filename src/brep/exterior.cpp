@@ -76,7 +76,10 @@ class ExteriorFinder {
         std::rotate(nodes.node.begin(), std::min_element(nodes.node.begin(), nodes.node.end()),
                     nodes.node.end());
         Facet facet;
-        for (std::size_t v = 0; v < 4; ++v) facet.corner[v] = cells_.position[at(nodes.node[v])];
+        for (std::size_t v = 0; v < 4; ++v) {
+          facet.corner[v] = cells_.position[at(nodes.node[v])];
+          facet.node[v] = cells_.node_id[at(nodes.node[v])];
+        }
         facet.kept = other != kNone;
         out_.faces.push_back({c, f, static_cast<LocalId>(facets_.size())});
         out_.facets.push_back(facet);

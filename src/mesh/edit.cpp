@@ -1,5 +1,8 @@
 #include "sculpt/mesh/edit.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace sculpt {
 
 std::vector<LocalId> indices_without(std::span<const std::uint8_t> drop) {
@@ -64,6 +67,58 @@ std::vector<LocalId> remove_hexes(const Comm& comm, HexMesh& mesh, std::vector<s
   drop_unused_nodes(mesh);
   connect_ranks(comm, mesh);
   return hex;
+}
+
+void join_hexes(const Comm& comm, HexMesh& mesh, HexMesh other, GlobalId node_factor, GlobalId hex_factor) {
+  for (GlobalId& id : other.node_id) id *= node_factor;
+  for (GlobalId& id : other.hex_id) id *= hex_factor;
+  mesh.exterior = {};
+  // Where each node of the two meshes goes, in the order of the ids.
+  const std::array<const HexMesh*, 2> from{&mesh, &other};
+  std::array<std::vector<LocalId>, 2> node;
+  HexMesh out;
+  std::array<LocalId, 2> next{0, 0};
+  while (next[0] < mesh.nodes() || next[1] < other.nodes()) {
+    const auto id = [&](std::size_t m) {
+      return next[m] < from[m]->nodes() ? from[m]->node_id[at(next[m])]
+                                        : std::numeric_limits<GlobalId>::max();
+    };
+    const GlobalId least = std::min(id(0), id(1));
+    const std::size_t first = id(0) == least ? 0 : 1;
+    const std::size_t n = at(next[first]);
+    out.position.push_back(from[first]->position[n]);
+    out.node_id.push_back(least);
+    out.node_owner.push_back(from[first]->node_owner[n]);
+    out.box_sides.push_back(from[first]->box_sides[n]);
+    out.colour.push_back(from[first]->colour[n]);
+    out.node_unit.push_back(from[first]->node_unit[n]);
+    for (std::size_t m = 0; m < 2; ++m)
+      if (id(m) == least) {
+        node[m].push_back(out.nodes() - 1);
+        ++next[m];
+      }
+  }
+  next = {0, 0};
+  while (next[0] < mesh.size() || next[1] < other.size()) {
+    const bool second =
+        next[0] >= mesh.size() ||
+        (next[1] < other.size() && other.hex_id[at(next[1])] < mesh.hex_id[at(next[0])]);
+    const std::size_t m = second ? 1 : 0, h = at(next[m]++);
+    if (from[m]->layer[h] > mesh.ghost_layers) continue;
+    Hex hex = from[m]->hexes[h];
+    for (LocalId& n : hex) n = node[m][at(n)];
+    out.hexes.push_back(hex);
+    out.hex_id.push_back(from[m]->hex_id[h]);
+    out.hex_owner.push_back(from[m]->hex_owner[h]);
+    out.layer.push_back(from[m]->layer[h]);
+    out.material.push_back(from[m]->material[h]);
+  }
+  out.ghost_layers = mesh.ghost_layers;
+  out.colours = std::max(mesh.colours, other.colours);
+  out.cell_size = mesh.cell_size;
+  drop_unused_nodes(out);
+  connect_ranks(comm, out);
+  mesh = std::move(out);
 }
 
 }  // namespace sculpt

@@ -37,7 +37,7 @@ class Planner {
     add_inner(
         [](const InterfaceQuad&, std::size_t, bool exterior) { return exterior ? kExterior : kInterfaces; });
     for (const BoxFaces::Face& f : box_faces())
-      plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, kGridBoundary});
+      add_boundary(f, towards_kept(f.cell, f.face) ? kInterfaces : kGridBoundary);
     return std::move(plan_);
   }
 
@@ -58,11 +58,11 @@ class Planner {
       return surface;
     });
     for (std::size_t i = 0; i < box.faces.size(); ++i) {
-      const auto& [cell, face, side] = box.faces[i];
-      if (!meshed_here(cell)) continue;
+      const BoxFaces::Face& f = box.faces[i];
+      if (!meshed_here(f.cell)) continue;
       const std::int64_t surface = brep_.surfaces + box.surface[i];
-      note(surface, place(cell, face, cells_.hex_id[at(cell)]));
-      plan_.box.push_back({cells_.hex_id[at(cell)], side, surface});
+      note(surface, place(f.cell, f.face, cells_.hex_id[at(f.cell)]));
+      add_boundary(f, surface);
     }
     renumber();
     return std::move(plan_);
@@ -77,6 +77,19 @@ class Planner {
 
   [[nodiscard]] bool meshed_here(LocalId cell) const {
     return cells_.layer[at(cell)] == 0 && !drop_[at(cell)];
+  }
+
+  // A face on the boundary: of a box it is told by the side, of an exterior by the face itself.
+  void add_boundary(const BoxFaces::Face& f, std::int64_t set) {
+    if (cells_.exterior.empty())
+      plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, set});
+    else
+      plan_.inner.push_back({cells_.hex_id[at(f.cell)], f.face, set});
+  }
+  [[nodiscard]] bool towards_kept(LocalId cell, int face) const {
+    if (cells_.exterior.empty()) return false;
+    const LocalId facet = cells_.exterior.facet_at(cell, face);
+    return facet != kNone && cells_.exterior.facets[at(facet)].kept != 0;
   }
 
   // set_of(quad, its index, whether it is exterior), for quads whose listed cell is owned; but those between
@@ -113,6 +126,7 @@ class Planner {
   }
 
   [[nodiscard]] Place place(LocalId cell, int face, GlobalId before) const {
+    if (!cells_.exterior.empty()) return {before, face, 0};
     const auto axis = static_cast<std::size_t>(kFaceAxis[static_cast<std::size_t>(face)]);
     if (grid_[0] == 0) return {kFaceAxis[static_cast<std::size_t>(face)], 0, before};
     GlobalId stride = 1;

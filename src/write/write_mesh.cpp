@@ -167,6 +167,32 @@ class RankPart {
         (void)dense_numbers(comm_, keys, set.global_count);
         out_.node_sets.push_back(std::move(set));
       }
+    for (const NodeSetMembers& members : options_.node_sets) add_node_set(members);
+  }
+  // Every rank lists the nodes of its file, whichever rank knows that they belong to the set.
+  void add_node_set(const NodeSetMembers& members) {
+    std::vector<std::uint8_t> in_set(mesh_.position.size(), 0);
+    for (const GlobalId id : members.node) {
+      const auto found = std::lower_bound(mesh_.node_id.begin(), mesh_.node_id.end(), id);
+      if (found != mesh_.node_id.end() && *found == id)
+        in_set[static_cast<std::size_t>(found - mesh_.node_id.begin())] = 1;
+    }
+    mesh_.node_exchange.reduce_to_owners(
+        std::span<std::uint8_t>(in_set),
+        [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a | b); });
+    mesh_.node_exchange.copy_to_ghosts(in_set);
+    RankMesh::NodeSet set;
+    set.id = members.id;
+    if (const auto name = options_.node_set_names.find(set.id); name != options_.node_set_names.end())
+      set.name = name->second;
+    std::vector<GlobalId> keys;
+    for (LocalId n = 0; n < mesh_.nodes(); ++n) {
+      if (!in_set[at(n)] || file_node_[at(n)] == kNone) continue;
+      keys.push_back(mesh_.node_id[at(n)]);
+      set.node.push_back(file_node_[at(n)]);
+    }
+    (void)dense_numbers(comm_, keys, set.global_count);
+    out_.node_sets.push_back(std::move(set));
   }
 
   // Position of each local hex in the file, from 1.
@@ -183,6 +209,7 @@ class RankPart {
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     ids = comm_.concatenate(ids);
+    ids.insert(ids.end(), options_.side_sets.begin(), options_.side_sets.end());
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     if (ids.empty()) return;

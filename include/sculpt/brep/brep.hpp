@@ -34,7 +34,7 @@ struct Brep {
 
 // Local. The bit number of the BoxSide that a face of a cell lies on, which may also be one of a periodic
 // axis (there the neighbour is an image); -1 inside the box, for outer faces of the last ghost layer, and for
-// images.
+// images. Of a mesh with an exterior: the number of the surface.
 [[nodiscard]] int side_of_box(const HexMesh& cells, const FaceNeighbours& neighbours, LocalId cell, int face);
 
 // The faces of cells on the sides of the box, and the surfaces they form: those of one volume and one side of
@@ -43,7 +43,7 @@ struct BoxFaces {
   struct Face {
     LocalId cell;
     std::int32_t face;  // kFaces index
-    std::int32_t side;  // bit number of the BoxSide
+    std::int32_t side;  // bit number of the BoxSide, or number of the surface of the exterior
   };
   std::vector<Face> faces;            // of owned and ghost cells but images, ascending in (cell, face)
   std::vector<std::int32_t> surface;  // per face; ascending in the smallest (cell id, face)

@@ -16,8 +16,9 @@ namespace sculpt {
 struct Facet {
   std::array<Vec3, 4> corner;  // outward by the right-hand rule, from the one with the smallest node id on:
                                // triangles 0 1 2 and 0 2 3
-  std::int32_t surface = 0;    // the same on all ranks
-  std::uint8_t kept = 0;       // 1: beyond it lie cells that stay as they are (input_mesh_blocks)
+  std::array<GlobalId, 4> node{};  // ids of the corners in the overlay mesh
+  std::int32_t surface = 0;        // the same on all ranks
+  std::uint8_t kept = 0;           // 1: beyond it lie cells that stay as they are (input_mesh_blocks)
 };
 
 // Where a node of the boundary may go.

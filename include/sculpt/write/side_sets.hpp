@@ -9,7 +9,7 @@
 //   variable  one set per surface (brep.hpp): those on the sides of the box, those towards unmeshed cells,
 //             and those between materials; ids from 1 in the order in which real Sculpt meets them: a
 //             surface's first face is the one with the smallest (axis of its normal, grid plane, cell),
-//             and the first faces ascend
+//             and the first faces ascend (of an input mesh: the smallest (cell, face))
 //   rve       1..6 = the sides xmin, xmax, ymin, ymax, zmin, zmax of the box
 //
 // A face between two meshed materials is listed once, by the cell of the larger dense material index. A set

@@ -24,11 +24,19 @@ struct HexVariable {
   std::vector<double> value;  // per local hex
 };
 
+// The nodes of a set that this rank knows of; any rank may know of a node.
+struct NodeSetMembers {
+  std::int64_t id;
+  std::vector<GlobalId> node;  // ids in the mesh; those that it does not have do not count
+};
+
 struct WriteOptions {
   std::string base;                    // files base.e.N.r
   bool large = false;                  // 64-bit integers on disk
   std::vector<std::int64_t> block_id;  // of each dense material index
-  std::map<std::int64_t, std::string> block_names, side_set_names;
+  std::map<std::int64_t, std::string> block_names, side_set_names, node_set_names;
+  std::vector<std::int64_t> side_sets;  // ids of those that appear even without a face
+  std::vector<NodeSetMembers> node_sets;
   std::vector<HexVariable> variables;
   // Of a periodic mesh, per axis: ids of the node sets of its low and its high side; 0 = none. A set holds
   // the nodes that have a partner on the other side, in ascending global id, which is the same order on both

@@ -7,6 +7,9 @@ namespace {
 
 constexpr EnumValue kInputMeshMaterials[] = {{"automatic", kMeshMaterialAutomatic},
                                              {"geometry_and_blocks", kMeshMaterialGeometryAndBlocks}};
+constexpr EnumValue kPartitions[] = {
+    {"rcb", kPartitionRcb}, {"rib", kPartitionRib}, {"hsfc", kPartitionHsfc}, {"graph", kPartitionGraph}};
+constexpr EnumValue kSlidings[] = {{"exact", kSlidingExact}, {"surface", kSlidingSurface}};
 constexpr EnumValue kStairs[] = {{"off", kStairOff},           {"none", kStairOff}, {"false", kStairOff},
                                  {"full", kStairFull},         {"on", kStairFull},  {"true", kStairFull},
                                  {"interior", kStairInterior}, {"fast", kStairFast}};
@@ -27,7 +30,7 @@ constexpr EnumValue kGenSidesets[] = {
     {"input_mesh_and_stl", kSidesetsInputMeshAndStl, false},
     {"input_mesh_and_free_surfaces", kSidesetsInputMeshAndFreeSurfaces, false},
     {"rve_variable", kSidesetsRveVariable, false},
-    {"input_mesh", kSidesetsInputMesh, false}};
+    {"input_mesh", kSidesetsInputMesh}};
 constexpr EnumValue kAdaptTypes[] = {{"off", kAdaptOff},
                                      {"none", kAdaptOff},
                                      {"facet_to_surface", kAdaptFacetToSurface},
@@ -147,7 +150,11 @@ constexpr OptionSpec kOverlayOptions[] = {
      .group = kV,
      .slot = &Deck::input_mesh,
      .help = "Hex mesh used as grid",
-     .about = "Any Exodus hex mesh as base grid.",
+     .about = "Any Exodus hex mesh as base grid: one or many blocks, structured or not. Materials come from a "
+              "geometry source (input_spn, diatom_file) or from the element variables of the mesh, one volume "
+              "fraction per material. With several processes the files <name>.<processes>.<rank> of decomp are "
+              "used when they exist; otherwise the mesh is partitioned (input_mesh_partition).",
+     .supported = true,
      .unset = "none",
      .argument = "file name"},
     {.name = "input_mesh_blocks",
@@ -155,7 +162,9 @@ constexpr OptionSpec kOverlayOptions[] = {
      .group = kV,
      .slot = &Deck::input_mesh_blocks,
      .help = "Blocks of the input mesh to fill",
-     .about = "Only these blocks receive the microstructure.",
+     .about = "Only these blocks receive the microstructure. The others stay as they are, element by element, "
+              "and the rest of the mesh conforms with them.",
+     .supported = true,
      .lo = 0,
      .hi = kMaxId,
      .unset = "all"},
@@ -165,8 +174,11 @@ constexpr OptionSpec kOverlayOptions[] = {
      .slot = &Deck::input_mesh_material,
      .help = "Where materials of an input mesh come from",
      .about =
-         "geometry_and_blocks: block ids of the mesh and materials of the geometry. The numbers of the names "
-         "are not confirmed to be Sculpt's.",
+         "automatic: from the geometry source, or from the element variables when there is none. "
+         "geometry_and_blocks: materials of the geometry source where it has any; what it leaves void keeps "
+         "the block of the input mesh, with the interfaces between blocks. The numbers of the names are not "
+         "confirmed to be Sculpt's.",
+     .supported = true,
      .values = kInputMeshMaterials},
     {.name = "input_mesh_pamgen",
      .flag = "-imp",
@@ -174,8 +186,38 @@ constexpr OptionSpec kOverlayOptions[] = {
      .slot = &Deck::input_mesh_pamgen,
      .help = "Pamgen description used as grid",
      .about = "Base mesh by an inline Pamgen description.",
+     .supported = true,
      .unset = "none",
      .argument = "file name"},
+    {.name = "input_mesh_partition",
+     .flag = "",
+     .group = kV,
+     .slot = &Deck::input_mesh_partition,
+     .help = "How an input mesh is spread over the processes",
+     .about = "Recursive coordinate or inertial bisection, a Hilbert curve, or the graph of the elements (all by "
+              "Zoltan). The result does not depend on it. An option of this program.",
+     .supported = true,
+     .values = kPartitions},
+    {.name = "feature_angle",
+     .flag = "",
+     .group = kV,
+     .slot = &Deck::feature_angle,
+     .help = "Angle below which an edge of an input mesh is a feature",
+     .about = "Degrees, measured inside. Where boundary faces meet at less (or at more than 360 minus it) one "
+              "surface ends and another begins. An option of this program.",
+     .supported = true,
+     .lo = 0,
+     .hi = 180},
+    {.name = "exterior_sliding",
+     .flag = "",
+     .group = kV,
+     .slot = &Deck::exterior_sliding,
+     .help = "Where boundary nodes of an input mesh may move",
+     .about = "exact: in plane parts of the boundary and along straight edges, which leaves its shape and volume "
+              "as they are. surface: also across the edges between the facets of a curved surface, which gives "
+              "smoother interfaces there but cuts these edges. An option of this program.",
+     .supported = true,
+     .values = kSlidings},
     {.name = "join_parallel",
      .flag = "",
      .group = kV,

@@ -11,7 +11,7 @@
 namespace sculpt {
 namespace {
 
-constexpr GlobalId kNodeFactor = 64, kHexFactor = 8;
+constexpr GlobalId kNodeFactor = 64;
 constexpr GlobalId kBoxNodeFactor = 2;  // a wrap of the box copies a node once
 constexpr int kBottom = 4, kTop = 5;    // faces of a new hex: towards the old hex, where the old face was
 constexpr double kLeastOfWay = 0.25;    // what is left of the way of a copy when it is put on the exterior

@@ -5,6 +5,7 @@
 #include "pipeline/idle_options.hpp"
 #include "pipeline/layers.hpp"
 #include "pipeline/periodicity.hpp"
+#include "pipeline/unstructured_overlay.hpp"
 #include "sculpt/distribute/cartesian.hpp"
 #include "sculpt/vfrac/fractions.hpp"
 
@@ -52,7 +53,10 @@ Overlay read_uniform(const Comm& comm, const Deck& deck, MaterialSource& source,
                   grid.cells,
                   numbered_grid(parts, layers),
                   true,
-                  source.exact_surface()};
+                  source.exact_surface(),
+                  {},
+                  {},
+                  {}};
   if (deck.periodic) overlay.fractions = with_ghosts(overlay.cells, overlay.fractions);
   const bool pure = overlay.fractions.material.size() == static_cast<std::size_t>(overlay.fractions.cells());
   overlay.pure = comm.min(std::int64_t{pure}) == 1;
@@ -66,16 +70,22 @@ Overlay read_uniform(const Comm& comm, const Deck& deck, MaterialSource& source,
 
 }  // namespace
 
-Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages) {
-  const auto source = open_source(comm, deck, log);
+Overlay read_on_grid(const Comm& comm, const Deck& deck, MaterialSource& source, const Log& log,
+                     Stages& stages) {
   for (const std::string& idle : idle_adapt_options(deck)) log.line("WARNING: {}", idle);
   if ((deck.given("check_periodic") || deck.given("check_periodic_tol")) &&
-      (!deck.periodic || source->is_data()))
+      (!deck.periodic || source.is_data()))
     log.line("WARNING: {}; no effect: check_periodic",
              deck.periodic ? "data on a grid are taken as one period" : "the mesh is not periodic");
-  const Grid grid = overlay_grid(deck, source->grid());
-  return is_adapted(deck) ? read_adapted(comm, deck, *source, grid, log, stages)
-                          : read_uniform(comm, deck, *source, grid, log, stages);
+  const Grid grid = overlay_grid(deck, source.grid());
+  return is_adapted(deck) ? read_adapted(comm, deck, source, grid, log, stages)
+                          : read_uniform(comm, deck, source, grid, log, stages);
+}
+
+Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages) {
+  if (has_input_mesh(deck)) return read_unstructured(comm, deck, log, stages);
+  const auto source = open_source(comm, deck, log, std::nullopt);
+  return read_on_grid(comm, deck, *source, log, stages);
 }
 
 }  // namespace sculpt

@@ -1,7 +1,10 @@
 #pragma once
 // The overlay mesh that a run starts from: the grid of the input, refined, coarsened or as it is, with the
 // volume fractions of its cells.
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "sculpt/base/log.hpp"
 #include "sculpt/deck/deck.hpp"
@@ -9,8 +12,21 @@
 #include "sculpt/mesh/adjacency.hpp"
 #include "sculpt/mesh/hex_mesh.hpp"
 #include "sculpt/pipeline/stages.hpp"
+#include "sculpt/write/side_sets.hpp"
 
 namespace sculpt {
+
+// Sets of an input mesh that are carried over (gen_sidesets = input_mesh).
+struct InputSets {
+  struct Set {
+    std::int64_t id;
+    std::string name;
+  };
+  bool wanted = false;
+  std::vector<Set> side_sets, node_sets;
+  std::vector<SidePlan::Item> faces;         // of local cells
+  std::vector<std::vector<GlobalId>> nodes;  // per node set: ids in the overlay mesh, ascending, of all ranks
+};
 
 // The overlay mesh with its materials, and its adjacency for the stages that work on it.
 struct Overlay {
@@ -19,13 +35,20 @@ struct Overlay {
   MaterialTable materials;
   FaceNeighbours neighbours;
   std::optional<NodeHexes> around;
-  Index3 grid{0, 0, 0};      // cells per axis, all ranks
+  Index3 grid{0, 0, 0};      // cells per axis, all ranks; 0: no Cartesian grid
   Index3 numbered{0, 0, 0};  // of a lattice: those of the grid that gives the cells their ids
   bool pure = true;          // on all ranks every cell of the input holds one material only
   ExactSurface exact;        // what the input knows of its surfaces
+  // Of an input mesh.
+  std::optional<HexMesh> kept;  // hexes that stay as they are; cells has the others
+  std::map<std::int64_t, std::string> block_names;
+  InputSets sets;
 };
 
 // Collective. Opens and reads the input of the deck. Adjacency is left for later.
+// The same on the grid of a source.
+[[nodiscard]] Overlay read_on_grid(const Comm& comm, const Deck& deck, MaterialSource& source, const Log& log,
+                                   Stages& stages);
 [[nodiscard]] Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages);
 
 }  // namespace sculpt

@@ -7,6 +7,7 @@
 #include <ctime>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "pipeline/adapted_overlay.hpp"
@@ -24,6 +25,7 @@
 #include "sculpt/exo/rank_mesh.hpp"
 #include "sculpt/input/material_source.hpp"
 #include "sculpt/launch/launch.hpp"
+#include "sculpt/mesh/edge_walk.hpp"
 #include "sculpt/mesh/edit.hpp"
 #include "sculpt/pillow/pillow.hpp"
 #include "sculpt/pipeline/stages.hpp"
@@ -54,6 +56,10 @@ void refuse_empty_mesh(const Comm& comm, const Overlay& overlay, const std::vect
   std::int64_t meshed = 0;
   for (std::size_t c = 0; c < drop.size(); ++c) meshed += overlay.cells.layer[c] == 0 && !drop[c];
   if (comm.sum(meshed) > 0) return;
+  if (overlay.grid[0] == 0)
+    throw Error(
+        "nothing to mesh: none of the hexes of the input mesh belongs to a material; the geometry lies outside "
+        "of them or fills less than half of every one");
   throw Error(fmt::format(
       "nothing to mesh: none of the {} x {} x {} cells of the grid belongs to a material; the geometry "
       "lies outside the box or fills less than half of every cell",
@@ -134,12 +140,35 @@ Contour stair_interfaces(Overlay& overlay, const std::vector<std::uint8_t>& drop
   return {trace_interfaces(overlay.cells, overlay.neighbours), {}, {}, {}, {}};
 }
 
+// The faces of the side sets of the input mesh whose hexes are meshed.
+SidePlan carried_sets(const Comm& comm, const Overlay& overlay, const std::vector<std::uint8_t>& drop,
+                      const Log& log) {
+  SidePlan plan;
+  std::int64_t lost = 0;
+  const auto owned = [](const HexMesh& mesh, GlobalId id) {
+    const auto found = std::lower_bound(mesh.hex_id.begin(), mesh.hex_id.end(), id);
+    const auto h = static_cast<LocalId>(found - mesh.hex_id.begin());
+    return found != mesh.hex_id.end() && *found == id && mesh.layer[at(h)] == 0 ? h : kNone;
+  };
+  for (const SidePlan::Item& item : overlay.sets.faces) {
+    const LocalId cell = owned(overlay.cells, item.cell);
+    const bool meshed =
+        cell != kNone ? drop[at(cell)] == 0 : overlay.kept && owned(*overlay.kept, item.cell) != kNone;
+    if (meshed) plan.inner.push_back(item);
+    lost += cell != kNone && !meshed;
+  }
+  if (lost = comm.sum(lost); lost > 0)
+    log.line("WARNING: {} faces in side sets of the input mesh belong to hexes that are not meshed", lost);
+  return plan;
+}
+
 SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& overlay,
                            const Interfaces& faces, const std::vector<std::uint8_t>& drop, const Log& log) {
   log.line("(6/9) generating geometry...");
   const Brep brep = build_brep(comm, overlay.cells, overlay.neighbours, faces);
   log.line("  {} volumes, {} surfaces, {} curves, {} vertices", brep.volumes, brep.surfaces, brep.curves,
            brep.vertices);
+  if (overlay.sets.wanted) return carried_sets(comm, overlay, drop, log);
   const bool is_lattice = overlay.cells.lattice[0] != 0;
   return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop,
                         is_lattice ? overlay.numbered : Index3{0, 0, 0}, deck.gen_sidesets);
@@ -173,8 +202,28 @@ struct Meshed {
   HexMesh mesh;
   int pillows = 1;       // how often pillow() was called
   SidePlan sides;        // what its side sets will be
+  std::vector<NodeSetMembers> node_sets;
   InterfaceTrack track;  // empty in a mesh that keeps the shape of the cells
 };
+
+// The nodes of the sets of the input mesh, and of the faces of the boundary that lay between four of them.
+std::vector<NodeSetMembers> carried_node_sets(const InputSets& sets, const HexMesh& mesh,
+                                              GlobalId node_factor) {
+  std::vector<NodeSetMembers> out;
+  for (std::size_t s = 0; s < sets.node_sets.size(); ++s) {
+    const std::vector<GlobalId>& nodes = sets.nodes[s];
+    const auto in = [&](GlobalId id) { return std::binary_search(nodes.begin(), nodes.end(), id); };
+    NodeSetMembers members{sets.node_sets[s].id, {}};
+    for (const GlobalId id : nodes) members.node.push_back(id * node_factor);
+    for (const ExteriorFace& f : mesh.exterior.faces) {
+      const auto& corner = mesh.exterior.facets[at(f.facet)].node;
+      if (!std::all_of(corner.begin(), corner.end(), in)) continue;
+      for (const LocalId n : face_nodes(mesh, {f.hex, f.face})) members.node.push_back(mesh.node_id[at(n)]);
+    }
+    out.push_back(std::move(members));
+  }
+  return out;
+}
 
 // The cells of a refined grid with valid transitions; cubes stay cubes.
 HexMesh smooth_transitions(HexMesh cells) {
@@ -190,12 +239,13 @@ Meshed stair_mesh(const Comm& comm, const Deck& deck, const Overlay& overlay,
   if (layer_plan(deck).any())
     log.line("WARNING: stair keeps the cells as they are; the pillow options have no effect");
   const std::vector<std::int32_t> none(drop.size(), -1);
-  HexMesh mesh = pillow(comm, is_adapted(deck) ? smooth_transitions(overlay.cells) : overlay.cells,
-                        overlay.neighbours, none, drop, {})
-                     .mesh;
+  Pillowed mesh = pillow(comm, is_adapted(deck) ? smooth_transitions(overlay.cells) : overlay.cells,
+                         overlay.neighbours, none, drop, {});
   stages.end("generate hexes");
   log.line("(9/9) begin smoothing...");
-  return {std::move(mesh), 1, {}, {}};
+  std::vector<NodeSetMembers> node_sets = carried_node_sets(overlay.sets, mesh.mesh, mesh.node_factor);
+  if (overlay.kept) join_hexes(comm, mesh.mesh, *overlay.kept, mesh.node_factor, kHexFactor);
+  return {std::move(mesh.mesh), 1, {}, std::move(node_sets), {}};
 }
 
 Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contour& shape,
@@ -231,7 +281,14 @@ Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contou
   }
   correct_thickened_volumes(deck, layered.mesh, layered.geometry, wanted_volumes, log, stages);
   for (GlobalId& node : track.node) node *= layered.node_factor;
-  return {std::move(layered.mesh), layered.pillows, {}, std::move(track)};
+  std::vector<NodeSetMembers> node_sets =
+      carried_node_sets(overlay.sets, layered.mesh, layered.node_factor);
+  if (overlay.kept) {
+    GlobalId hex_factor = 1;
+    for (int i = 0; i < layered.pillows; ++i) hex_factor *= kHexFactor;
+    join_hexes(comm, layered.mesh, std::move(*overlay.kept), layered.node_factor, hex_factor);
+  }
+  return {std::move(layered.mesh), layered.pillows, {}, std::move(node_sets), std::move(track)};
 }
 
 Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
@@ -279,6 +336,15 @@ void remove_bad_hexes(const Comm& comm, const Deck& deck, const MaterialTable& m
   const std::vector<LocalId> index = remove_hexes(comm, mesh, remove);
   std::erase_if(faces, [&](const SideFace& f) { return index[at(f.hex)] == kNone; });
   for (SideFace& f : faces) f.hex = index[at(f.hex)];
+}
+
+// Adds the volumes of hexes of one material each, in cells.
+void add_volumes(const Comm& comm, const HexMesh& hexes, std::vector<double>& volume) {
+  std::vector<std::int64_t> units(volume.size(), 0);
+  for (LocalId h = 0; h < hexes.size(); ++h)
+    if (hexes.layer[at(h)] == 0) units[at(hexes.material[at(h)])] += to_units(hexes.volume_in_cells(h));
+  comm.sum(units);
+  for (std::size_t m = 0; m < units.size(); ++m) volume[m] += from_units(units[m]);
 }
 
 // Everything that is told about the mesh in the end; displacement, input volumes and the like are known.
@@ -329,6 +395,21 @@ WriteOptions write_options(const Deck& deck, const MaterialTable& materials, con
   return w;
 }
 
+// Names and sets of the input mesh; names that the deck gives come first.
+struct Carried {
+  std::map<std::int64_t, std::string> block_names;
+  std::vector<InputSets::Set> side_sets, node_sets;
+};
+void add_carried(WriteOptions& options, const Carried& carried) {
+  options.block_names.insert(carried.block_names.begin(), carried.block_names.end());
+  for (const InputSets::Set& set : carried.side_sets) {
+    options.side_sets.push_back(set.id);
+    if (!set.name.empty()) options.side_set_names.emplace(set.id, set.name);
+  }
+  for (const InputSets::Set& set : carried.node_sets)
+    if (!set.name.empty()) options.node_set_names.emplace(set.id, set.name);
+}
+
 std::string export_name(const Deck& deck) { return deck.exodus_file + "_adapt"; }
 bool exports_grid(const Deck& deck) { return deck.adapt_export && deck.adapt_type != kAdaptOff; }
 
@@ -367,11 +448,13 @@ int run(const Comm& comm, const Deck& deck) {
   log.line("(1/9) computing normals...");
   std::vector<double> input_volume =
       input_volumes(comm, overlay.cells, overlay.fractions, overlay.materials.block_id.size());
+  if (overlay.kept) add_volumes(comm, *overlay.kept, input_volume);
   overlay.neighbours = face_neighbours(overlay.cells);
   const std::vector<double> wanted_volumes = classify(
       comm, deck, overlay.cells, overlay.fractions, overlay.materials, overlay.neighbours, overlay.around,
       input_volume, [&] { return contoured_volumes(comm, deck, overlay); }, log, stages);
   const MaterialTable materials = overlay.materials;
+  const Carried carried{overlay.block_names, overlay.sets.side_sets, overlay.sets.node_sets};
   if (exports_grid(deck)) write_grid(comm, deck, overlay, log, stages);
   input_volume.resize(materials.block_id.size(), 0);  // thicken_void may have added the void
   Meshed meshed = build_mesh(comm, deck, std::move(overlay), wanted_volumes, log, stages);
@@ -386,7 +469,10 @@ int run(const Comm& comm, const Deck& deck) {
   const QualityReport report = report_of(comm, deck, materials, mesh, input_volume, moved);
   stages.end("check quality");
   if (comm.size() > 1) log.line("generating parallel communication maps...");
-  const WriteSummary written = write_mesh(comm, mesh, faces, write_options(deck, materials, mesh));
+  WriteOptions options = write_options(deck, materials, mesh);
+  add_carried(options, carried);
+  options.node_sets = std::move(meshed.node_sets);
+  const WriteSummary written = write_mesh(comm, mesh, faces, options);
   if (!quality_file.empty()) write_quality_file(comm, report, deck.exodus_file, quality_file);
   stages.end("write files");
   if (deck.compare_volume) print_volumes(log, report);

@@ -10,7 +10,6 @@
 namespace sculpt {
 namespace {
 
-constexpr GlobalId kHexFactor = 8;  // ids of the hexes that pillow() makes of hex h: 8 h + 0 .. 6
 constexpr int kTop = 5;             // the face of a buffer hex that lies where the old face was
 constexpr std::int64_t kGridBoundary = 1, kExterior = 2, kInterfaces = 3;  // sets of `fixed`
 

@@ -91,6 +91,9 @@ enum Defeature : int { kDefeatureOff = 0, kDefeatureFilter = 1, kDefeatureCollap
 enum HtetMethod : int { kHtetStructured = 0, kHtetUnstructured = 1 };
 enum HtetTransition : int { kHtetNone = 0, kHtetPyramid = 1, kHtetTiedContact = 2 };
 enum InputMeshMaterial : int { kMeshMaterialAutomatic = 0, kMeshMaterialGeometryAndBlocks = 1 };
+// Options of ours, not Sculpt's.
+enum InputMeshPartition : int { kPartitionRcb = 0, kPartitionRib = 1, kPartitionHsfc = 2, kPartitionGraph = 3 };
+enum ExteriorSliding : int { kSlidingExact = 0, kSlidingSurface = 1 };
 enum PeriodicAxis : int { kAxisNone = 0, kAxisX = 1, kAxisY = 2, kAxisZ = 3 };
 // An option of ours, not Sculpt's: bit d stands for axis d.
 enum PeriodicDirections : int {
@@ -211,6 +214,9 @@ struct Deck {
   std::vector<std::int64_t> input_mesh_blocks;  // empty: all
   int input_mesh_material = kMeshMaterialAutomatic;
   std::string input_mesh_pamgen;
+  int input_mesh_partition = kPartitionRcb;  // ours
+  double feature_angle = 135;                // ours; degrees
+  int exterior_sliding = kSlidingExact;      // ours
   bool join_parallel = false;
 
   // Mesh Type; thresholds of -1 never apply, as no scaled Jacobian is smaller

@@ -33,6 +33,9 @@ namespace sculpt {
 enum BoxSide : std::uint8_t { kXmin = 1, kXmax = 2, kYmin = 4, kYmax = 8, kZmin = 16, kZmax = 32 };
 inline constexpr std::uint8_t kAxisSides[3] = {kXmin | kXmax, kYmin | kYmax, kZmin | kZmax};
 
+// Ids of the hexes that a pillow makes of hex h: 8 h + 0 .. 6 (pillow.hpp).
+inline constexpr GlobalId kHexFactor = 8;
+
 // How many periods an image lies from its home, per axis; 0 0 0 for what is no image.
 using Image = std::array<std::int16_t, 3>;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <limits>
 #include <map>
 
@@ -382,6 +383,12 @@ void ExodusReader::nemesis(RankMesh& mesh) {
     map.rank = static_cast<int>(rank);
     mesh.element_maps.push_back(std::move(map));
   }
+}
+
+bool is_hex(const ExodusReader::Block& block) {
+  std::string type = block.type;
+  std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
+  return block.nodes_per_element == 8 && (type == "hex" || type == "hex8");
 }
 
 RankMesh read_exodus(const std::string& path) {

@@ -88,6 +88,9 @@ class ExodusReader {
   Header header_;
 };
 
+// Whether its elements are HEX or HEX8, in any case, with 8 nodes.
+[[nodiscard]] bool is_hex(const ExodusReader::Block& block);
+
 // A whole file, of any element types. What a rank file does not say is `rank`: it stays 0.
 [[nodiscard]] RankMesh read_exodus(const std::string& path);
 

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <limits>
 #include <map>
+#include <span>
 
 #include "exo/exodus_file.hpp"
 #include "sculpt/base/error.hpp"
@@ -50,7 +51,7 @@ std::size_t allow_long_names(const ExodusFile& file) {
   return static_cast<std::size_t>(longest);
 }
 
-void check_range(const std::string& path, const std::string& where, const std::vector<std::int32_t>& list,
+void check_range(const std::string& path, const std::string& where, std::span<const std::int32_t> list,
                  std::int64_t largest, const char* what, std::int64_t first = 0, std::int64_t per_item = 1) {
   for (std::size_t n = 0; n < list.size(); ++n)
     if (list[n] < 1 || list[n] > largest)
@@ -282,9 +283,13 @@ void ExodusReader::side_set(std::size_t s, std::vector<std::int32_t>& element,
                                       side.data()),
               "reading a side set");
   file_->use_int64();
+  // In the order of the entries: the first mistake of a list does not depend on how it is cut into ranges.
   const std::string where = fmt::format("side set {}", set.id);
-  check_range(path_, where, element, header_.elements, "element", entries.first);
-  check_range(path_, where, side, 6, "side", entries.first);
+  for (std::size_t n = 0; n < element.size(); ++n) {
+    const std::int64_t entry = entries.first + static_cast<std::int64_t>(n);
+    check_range(path_, where, std::span(element).subspan(n, 1), header_.elements, "element", entry);
+    check_range(path_, where, std::span(side).subspan(n, 1), 6, "side", entry);
+  }
 }
 
 std::vector<std::int32_t> ExodusReader::node_set(std::size_t s, ExodusRange entries) {

@@ -101,10 +101,24 @@ class MeshReader {
     if (!header().times.empty())
       for (const auto& variable : header().element_variables) mesh_.variables.push_back(variable.name);
     mesh_.share.values_per_element = static_cast<int>(mesh_.variables.size());
-    // Parts have the same names, but some programs leave them to the first.
-    for (auto& block : mesh_.blocks) block.name = comm_.broadcast(std::move(block.name), 0);
-    for (auto& set : mesh_.side_sets) set.name = comm_.broadcast(std::move(set.name), 0);
-    for (auto& set : mesh_.node_sets) set.name = comm_.broadcast(std::move(set.name), 0);
+    if (files_.parts) share_names();
+  }
+
+  // Parts have the same names, but some programs leave them to the first.
+  void share_names() {
+    const auto of_all = [this](const auto& work) {
+      for (auto& block : mesh_.blocks) work(block.name);
+      for (auto& set : mesh_.side_sets) work(set.name);
+      for (auto& set : mesh_.node_sets) work(set.name);
+    };
+    std::string names;
+    of_all([&names](const std::string& name) { names += name + '\0'; });
+    names = comm_.broadcast(std::move(names), 0);
+    std::size_t at = 0;
+    of_all([&](std::string& name) {
+      name = names.c_str() + at;
+      at += name.size() + 1;
+    });
   }
 
   void check_types() const {

@@ -78,7 +78,7 @@ void give_void_to_blocks(HexMaterials& m, std::span<const std::int32_t> block_of
 
 class GridOfHexes final : public MaterialSource {
  public:
-  GridOfHexes(Grid grid, std::vector<Index3> cell, HexMaterials materials)
+  GridOfHexes(Grid grid, std::vector<GlobalId> cell, HexMaterials materials)
       : grid_(std::move(grid)), cell_(std::move(cell)), materials_(std::move(materials)) {}
 
   [[nodiscard]] const Grid& grid() const override { return grid_; }
@@ -89,8 +89,9 @@ class GridOfHexes final : public MaterialSource {
     const Fractions& f = materials_.owned;
     for (std::size_t r = 0; r < wanted.size(); ++r)
       for (std::size_t c = 0; c < cell_.size(); ++c) {
-        if (!wanted[r].contains(cell_[c])) continue;
-        const std::int64_t place = wanted[r].position(cell_[c]);
+        const Index3 cell = whole(grid_.cells).cell(cell_[c]);
+        if (!wanted[r].contains(cell)) continue;
+        const std::int64_t place = wanted[r].position(cell);
         for (auto e = static_cast<std::size_t>(f.offset[c]); e < static_cast<std::size_t>(f.offset[c + 1]);
              ++e)
           to[r].push_back({place, f.material[e], f.value[e]});
@@ -118,7 +119,7 @@ class GridOfHexes final : public MaterialSource {
     double value;
   };
   Grid grid_;
-  std::vector<Index3> cell_;
+  std::vector<GlobalId> cell_;
   HexMaterials materials_;
 };
 
@@ -225,7 +226,7 @@ std::vector<std::int32_t> add_blocks(const Comm& comm, const Deck& deck, HexMate
   return of_block;
 }
 
-std::unique_ptr<MaterialSource> grid_of_hexes(Grid grid, std::vector<Index3> cell, HexMaterials materials) {
+std::unique_ptr<MaterialSource> grid_of_hexes(Grid grid, std::vector<GlobalId> cell, HexMaterials materials) {
   return std::make_unique<GridOfHexes>(std::move(grid), std::move(cell), std::move(materials));
 }
 

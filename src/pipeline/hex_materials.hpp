@@ -48,8 +48,8 @@ struct BlockMaterials {
                                                    const BlockMaterials& blocks, const Log& log);
 
 // A source of data that are known for the hexes of a Cartesian grid, on whichever ranks. cell: of each of this
-// rank's hexes.
-[[nodiscard]] std::unique_ptr<MaterialSource> grid_of_hexes(Grid grid, std::vector<Index3> cell,
+// rank's hexes, in the numbering of the grid.
+[[nodiscard]] std::unique_ptr<MaterialSource> grid_of_hexes(Grid grid, std::vector<GlobalId> cell,
                                                             HexMaterials materials);
 
 }  // namespace sculpt

@@ -7,14 +7,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
+#include <memory>
+#include <tuple>
 
 #include "pipeline/hex_materials.hpp"
-#include "pipeline/idle_options.hpp"
 #include "pipeline/layers.hpp"
-#include "sculpt/base/fixed_point.hpp"
+#include "sculpt/base/lot.hpp"
 #include "sculpt/brep/exterior.hpp"
-#include "sculpt/distribute/cartesian_grid_of.hpp"
+#include "sculpt/distribute/cartesian_grid.hpp"
 #include "sculpt/distribute/conformity.hpp"
 #include "sculpt/distribute/repartition.hpp"
 #include "sculpt/distribute/unstructured.hpp"
@@ -66,7 +66,7 @@ class InputMeshOverlay {
     if (deck_.input_mesh.empty()) check_hexes(comm_, mesh_, path());
     stages_.end("read input mesh");
     find_blocks();
-    check_conformity(comm_, mesh_.share, block_ids(), path());
+    check_conformity(comm_, mesh_.share, block_ids());
     if (!restricted() && deck_.gen_sidesets != kSidesetsInputMesh && !keeps_blocks())
       if (const auto grid = cartesian_grid_of(comm_, mesh_.share)) return on_grid(*grid);
     refuse_what_needs_a_grid();
@@ -121,7 +121,7 @@ class InputMeshOverlay {
   }
 
   // The mesh is a Cartesian grid.
-  Overlay on_grid(const CartesianShape& shape) {
+  Overlay on_grid(const CartesianShare& shape) {
     const Index3& n = shape.grid.cells;
     log_.line("The input mesh is a Cartesian grid of {} x {} x {} cells", n[0], n[1], n[2]);
     stages_.end("check input mesh");
@@ -140,10 +140,10 @@ class InputMeshOverlay {
     }
     std::vector<HexCorners> hexes(mesh_.share.element.size());
     for (std::size_t e = 0; e < hexes.size(); ++e) {
-      const Index3& c = shape.cell[e];
+      const Index3 c = whole(n).cell(shape.cell[e]);
       for (std::size_t v = 0; v < 8; ++v)
-        hexes[e] [v] = shape.grid.corner({c[0] + kCornerOffset[v][0], c[1] + kCornerOffset[v][1],
-                                         c[2] + kCornerOffset[v][2]});
+        hexes[e][v] = shape.grid.corner(
+            {c[0] + kCornerOffset[v][0], c[1] + kCornerOffset[v][1], c[2] + kCornerOffset[v][2]});
     }
     HexMaterials materials = measure(hexes, mesh_.share.element, mesh_.share.value);
     (void)add_blocks(comm_, deck_, materials, {}, log_);

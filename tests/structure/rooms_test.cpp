@@ -126,7 +126,7 @@ TEST(Rooms, WrapTheirLibraries) {
   for (const Include& i : all_includes()) {
     if (i.header == "mpi.h") EXPECT_EQ(i.room, "par") << place(i);
     if (i.header == "exodusII.h" || i.header == "netcdf.h") EXPECT_EQ(i.room, "exo") << place(i);
-    if (i.header == "zoltan.h") EXPECT_EQ(i.room, "distribute") << place(i);
+    if (i.header == "zoltan.h") EXPECT_EQ(i.room, "par") << place(i);
     EXPECT_FALSE(i.header.starts_with("gtest/")) << place(i);
   }
 }

@@ -47,6 +47,9 @@ int count_sources(const Deck& deck) {
   return count;
 }
 
+// The overlay grid is a mesh.
+bool has_mesh(const Deck& deck) { return deck.given("input_mesh") || deck.given("input_mesh_pamgen"); }
+
 bool has_counts(const Deck& deck) { return all_given(deck, {"nelx", "nely", "nelz"}); }
 bool has_box(const Deck& deck) { return all_given(deck, {"xmin", "ymin", "zmin", "xmax", "ymax", "zmax"}); }
 
@@ -91,17 +94,34 @@ const std::vector<Rule>& rules() {
   static const Names counts = {"nelx", "nely", "nelz"};
   static const Names box = {"xmin", "ymin", "zmin", "xmax", "ymax", "zmax"};
   static const std::vector<Rule> table = {
-      {[](const Deck& d) { return count_sources(d) == 0; },
+      {[](const Deck& d) { return count_sources(d) == 0 && !has_mesh(d); },
        {},
        "no input geometry; give one of stl_file, diatom_file, input_vfrac, input_micro, input_cart_exo, "
        "input_spn or input_stitch"},
       {[](const Deck& d) { return count_sources(d) > 1; }, Names(std::begin(kSources), std::end(kSources)),
        "only one input geometry is allowed"},
+      {[](const Deck& d) {
+         return all_given(d, {"input_mesh", "input_mesh_pamgen"});
+       },
+       {"input_mesh", "input_mesh_pamgen"},
+       "only one mesh can be the overlay grid"},
+      {[](const Deck& d) {
+         return has_mesh(d) && (d.given("input_micro") || d.given("input_cart_exo") ||
+                                d.given("input_vfrac") || d.given("input_stitch"));
+       },
+       {"input_mesh", "input_mesh_pamgen", "input_micro", "input_cart_exo", "input_vfrac", "input_stitch"},
+       "input_mesh takes its materials from its element variables, stl_file, diatom_file or input_spn"},
+      {[](const Deck& d) { return d.given("input_mesh_pamgen") && count_sources(d) == 0; },
+       {"input_mesh_pamgen"},
+       "input_mesh_pamgen has no element variables; give one of stl_file, diatom_file or input_spn"},
+      {[](const Deck& d) { return d.given("input_mesh_blocks") && !has_mesh(d); },
+       {"input_mesh_blocks"},
+       "input_mesh_blocks needs input_mesh or input_mesh_pamgen"},
       {[](const Deck& d) { return d.given("input_spn") && !has_counts(d); }, counts,
        "input_spn needs the number of cells nelx, nely and nelz", Tell::kMissing},
-      {[](const Deck& d) { return d.given("diatom_file") && !has_counts(d); }, counts,
+      {[](const Deck& d) { return d.given("diatom_file") && !has_mesh(d) && !has_counts(d); }, counts,
        "diatom_file needs the number of cells nelx, nely and nelz", Tell::kMissing},
-      {[](const Deck& d) { return d.given("diatom_file") && !has_box(d); }, box,
+      {[](const Deck& d) { return d.given("diatom_file") && !has_mesh(d) && !has_box(d); }, box,
        "diatom_file needs the box of the grid, xmin, ymin, zmin, xmax, ymax and zmax", Tell::kMissing},
       {empty_x, {"xmin", "xmax"}, "xmin must be smaller than xmax"},
       {empty_y, {"ymin", "ymax"}, "ymin must be smaller than ymax"},
@@ -261,8 +281,9 @@ std::string stem(const std::string& file_name) { return std::filesystem::path(fi
 
 std::string default_base_name(const Deck& deck) {
   std::string base = stem(deck.input_file);
-  for (const std::string* name : {&deck.stl_file, &deck.diatom_file, &deck.input_vfrac, &deck.input_micro,
-                                  &deck.input_cart_exo, &deck.input_spn, &deck.input_stitch})
+  for (const std::string* name :
+       {&deck.stl_file, &deck.diatom_file, &deck.input_vfrac, &deck.input_micro, &deck.input_cart_exo,
+        &deck.input_spn, &deck.input_stitch, &deck.input_mesh, &deck.input_mesh_pamgen})
     if (base.empty()) base = stem(*name);
   return base.empty() ? "sculpt" : base;
 }

@@ -50,6 +50,19 @@ void Sphere::chords(std::size_t axis, double u, std::span<const double> v, std::
   }
 }
 
+void Sphere::line_chords(std::span<const Vec3> from, std::span<const Vec3> step, std::span<double> lo,
+                         std::span<double> hi) const {
+  const double square = radius_ * radius_;
+  for (std::size_t l = 0; l < from.size(); ++l) {
+    const Vec3 off = from[l] - center_;
+    const double a = dot(step[l], step[l]), b = dot(off, step[l]),
+                 rest = b * b - a * (dot(off, off) - square);
+    const double per = a > 0 ? 1 / a : 0, half = std::sqrt(rest > 0 ? rest : 0.0);
+    lo[l] = (-b - half) * per;
+    hi[l] = (-b + half) * per;
+  }
+}
+
 std::optional<Vec3> Sphere::nearest_on_surface(const Vec3& p) const {
   const Vec3 off = p - center_;
   if (!(norm(off) > 0)) return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sculpt {
 namespace {
@@ -11,6 +12,18 @@ constexpr double kAbsent = 1e-12;  // smaller fractions are rounding
 double line(const Box& cell, std::size_t axis, std::size_t l, std::size_t lines) {
   const double t = (static_cast<double>(l) + 0.5) / static_cast<double>(lines);
   return cell.lo[axis] + t * (cell.hi[axis] - cell.lo[axis]);
+}
+
+// The parameter of a hex whose lines cross the surface of a shape most steeply.
+std::size_t steepest_parameter(const Shape& shape, const Vec3& centre, const std::array<Vec3, 3>& edges) {
+  Vec3 normal;
+  const std::optional<Vec3> nearest = shape.nearest_on_surface(centre);
+  if (nearest) normal = *nearest - centre;
+  if (!(largest(normal) > 0)) normal[shape.steepest_axis(centre)] = 1;
+  std::size_t steepest = 0;
+  for (std::size_t d = 1; d < 3; ++d)
+    if (std::fabs(dot(normal, edges[d])) > std::fabs(dot(normal, edges[steepest]))) steepest = d;
+  return steepest;
 }
 
 }  // namespace
@@ -31,8 +44,10 @@ void CellMeter::measure(const Box& cell, std::span<const std::int32_t> candidate
     fractions.add(*sole, 1.0);
   } else {
     covered_.assign(reaching_.size(), 0.0);
-    const std::size_t axis = shape(0).steepest_axis(0.5 * (cell.lo + cell.hi));
-    if (is_gentle(cell, axis)) {
+    const Vec3 centre = 0.5 * (cell.lo + cell.hi);
+    const auto steepest = [&](const Shape& s) { return s.steepest_axis(centre); };
+    const std::size_t axis = steepest(shape(0));
+    if (is_gentle(cell, steepest)) {
       // The error of the midpoint rule falls with the square of the number of lines: two numbers cancel it.
       sample(cell, axis, 16, 4.0 / 3);
       sample(cell, axis, 8, -1.0 / 3);
@@ -44,9 +59,41 @@ void CellMeter::measure(const Box& cell, std::span<const std::int32_t> candidate
   fractions.end_cell();
 }
 
+void CellMeter::measure(const HexCorners& hex, std::span<const std::int32_t> candidates,
+                        Fractions& fractions) {
+  const Box bounds = bounds_of(hex);
+  // Shapes are convex, and so is all that a hex reaches: what holds its corners holds the hex.
+  select(bounds, candidates, [&](const Shape& s) {
+    return std::all_of(hex.begin(), hex.end(), [&](const Vec3& corner) {
+      return s.contains({corner, corner});
+    });
+  });
+  if (const auto sole = sole_selected()) {
+    fractions.add(*sole, 1.0);
+  } else {
+    covered_.assign(reaching_.size(), 0.0);
+    const Vec3 centre = centre_of(hex);
+    const std::array<Vec3, 3> edges = mean_edges(hex);
+    const auto steepest = [&](const Shape& s) { return steepest_parameter(s, centre, edges); };
+    const HexLines lines(hex, steepest(shape(0)));
+    if (is_gentle(bounds, steepest)) {
+      sample(lines, 16, 4.0 / 3);
+      sample(lines, 8, -1.0 / 3);
+    } else {
+      sample(lines, kMostLines, 1);
+    }
+    append(fractions);
+  }
+  fractions.end_cell();
+}
+
 std::optional<std::int32_t> CellMeter::sole_material(const Box& cell,
                                                      std::span<const std::int32_t> candidates) {
-  select(cell, candidates);
+  select(cell, candidates, [&](const Shape& s) { return s.contains(cell); });
+  return sole_selected();
+}
+
+std::optional<std::int32_t> CellMeter::sole_selected() const {
   if (reaching_.empty()) return outside_;
   const std::int32_t first = material(0);
   if (!filled_ && first != outside_) return std::nullopt;
@@ -56,25 +103,27 @@ std::optional<std::int32_t> CellMeter::sole_material(const Box& cell,
 }
 
 // The shapes that count: those that reach the cell, up to the first that fills it.
-void CellMeter::select(const Box& cell, std::span<const std::int32_t> candidates) {
+template <class Fills>
+void CellMeter::select(const Box& bounds, std::span<const std::int32_t> candidates, const Fills& fills) {
   reaching_.clear();
   filled_ = false;
   for (const std::int32_t c : candidates) {
     const auto at = static_cast<std::size_t>(c);
-    if (shapes_[at].shape->misses(cell)) continue;
+    if (shapes_[at].shape->misses(bounds)) continue;
     reaching_.push_back(at);
-    filled_ = shapes_[at].shape->contains(cell);
+    filled_ = fills(*shapes_[at].shape);
     if (filled_) return;
   }
 }
 
 // Few lines suffice where the surfaces turn little within the cell and all of them cross the lines steeply. A
 // shape that fills the cell has no surface there.
-bool CellMeter::is_gentle(const Box& cell, std::size_t axis) const {
+template <class Steepest>
+bool CellMeter::is_gentle(const Box& cell, const Steepest& steepest) const {
   constexpr double kCells = 4;  // across a shape
-  const Vec3 centre = 0.5 * (cell.lo + cell.hi);
+  const std::size_t axis = steepest(shape(0));
   for (std::size_t s = 0; s + (filled_ ? 1 : 0) < reaching_.size(); ++s) {
-    if (shape(s).steepest_axis(centre) != axis) return false;
+    if (steepest(shape(s)) != axis) return false;
     const Box bounds = shape(s).bounds();
     for (std::size_t d = 0; d < 3; ++d)
       if (bounds.hi[d] - bounds.lo[d] < kCells * (cell.hi[d] - cell.lo[d])) return false;
@@ -115,6 +164,45 @@ void CellMeter::sample(const Box& cell, std::size_t axis, std::size_t lines, dou
     for (std::size_t column = 0; column < lines; ++column) length += chords_[s].length[column];
     covered_[s] += length * per_length;
   }
+}
+
+// The same of a hex: lengths are volumes, those of the hex along its lines up to the ends of the chords.
+void CellMeter::sample(const HexLines& hex, std::size_t lines, double weight) {
+  chords_.resize(reaching_.size());
+  for (Chords& chords : chords_) chords.length.fill(0);
+  double volume = 0;
+  for (std::size_t l = 0; l < lines; ++l)
+    add_hex_row(hex, (static_cast<double>(l) + 0.5) / static_cast<double>(lines), lines, volume);
+  for (std::size_t s = 0; s < reaching_.size(); ++s) {
+    double sum = 0;
+    for (std::size_t column = 0; column < lines; ++column) sum += chords_[s].length[column];
+    covered_[s] += weight * (sum / volume);
+  }
+}
+
+void CellMeter::add_hex_row(const HexLines& hex, double u, std::size_t lines, double& volume) {
+  for (std::size_t l = 0; l < lines; ++l) {
+    line_[l] = hex.at(u, (static_cast<double>(l) + 0.5) / static_cast<double>(lines));
+    from_[l] = line_[l].from;
+    step_[l] = line_[l].step;
+    volume += line_[l].volume(1);
+  }
+  in_row_.clear();
+  for (std::size_t s = 0; s < reaching_.size(); ++s) {
+    double* const lo = chords_[s].lo.data();
+    double* const hi = chords_[s].hi.data();
+    shape(s).line_chords({from_.data(), lines}, {step_.data(), lines}, {lo, lines}, {hi, lines});
+    bool any = false;
+    for (std::size_t l = 0; l < lines; ++l) {
+      const double start = std::max(lo[l], 0.0), end = std::min(hi[l], 1.0);
+      const bool meets = start < end;
+      lo[l] = meets ? line_[l].volume(start) : 0;
+      hi[l] = meets ? line_[l].volume(end) : 0;
+      any = any || meets;
+    }
+    if (any) in_row_.push_back(s);
+  }
+  if (!in_row_.empty()) add_row(0, std::numeric_limits<double>::max(), lines);
 }
 
 // Gives the shapes of the row what they get of it, all lines side by side if possible.

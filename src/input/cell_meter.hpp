@@ -1,5 +1,5 @@
 #pragma once
-// The volume fractions of shapes in one box at a time.
+// The volume fractions of shapes in one box or hex at a time.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "input/inserted_shape.hpp"
+#include "sculpt/geom/trilinear.hpp"
 #include "sculpt/input/material_source.hpp"
 
 namespace sculpt {
 
 // Measures by lines along the axis in which the surface is steepest: exact along the line, midpoint rule
 // across, extrapolated where surfaces are gentle. Of balls with a radius of 0.6 edges of the box or more the
-// shares are within 1e-3 of the box, mostly 1e-4; within 3e-3 where several meet.
+// shares are within 1e-3 of the box, mostly 1e-4; within 3e-3 where several meet. A hex is measured in the
+// same way along lines on which one of its parameters varies.
 class CellMeter {
  public:
   CellMeter(std::span<const InsertedShape> shapes, std::int32_t outside)
@@ -22,6 +24,7 @@ class CellMeter {
   // Appends the fractions of a cell to the list. `candidates`: shapes that may reach it, in the order of
   // insertion; those that do not change nothing.
   void measure(const Box& cell, std::span<const std::int32_t> candidates, Fractions& fractions);
+  void measure(const HexCorners& hex, std::span<const std::int32_t> candidates, Fractions& fractions);
   // The material that fills the cell; nothing when only a measurement could tell.
   [[nodiscard]] std::optional<std::int32_t> sole_material(const Box& cell,
                                                           std::span<const std::int32_t> candidates);
@@ -48,9 +51,14 @@ class CellMeter {
 
   [[nodiscard]] const Shape& shape(std::size_t s) const { return *shapes_[reaching_[s]].shape; }
   [[nodiscard]] std::int32_t material(std::size_t s) const { return shapes_[reaching_[s]].material; }
-  void select(const Box& cell, std::span<const std::int32_t> candidates);
-  [[nodiscard]] bool is_gentle(const Box& cell, std::size_t axis) const;
+  template <class Fills>
+  void select(const Box& bounds, std::span<const std::int32_t> candidates, const Fills& fills);
+  [[nodiscard]] std::optional<std::int32_t> sole_selected() const;
+  template <class Steepest>
+  [[nodiscard]] bool is_gentle(const Box& bounds, const Steepest& steepest) const;
   void sample(const Box& cell, std::size_t axis, std::size_t lines, double weight);
+  void sample(const HexLines& hex, std::size_t lines, double weight);
+  void add_hex_row(const HexLines& hex, double u, std::size_t lines, double& volume);
   [[nodiscard]] static Lines lines_between(const Box& cell, std::size_t axis, std::size_t lines,
                                            const Box& bounds);
   void add_row(double from, double to, std::size_t lines);
@@ -67,6 +75,8 @@ class CellMeter {
   std::vector<Chords> chords_;         // per reaching shape
   std::vector<std::size_t> in_row_;    // the reaching shapes that may meet the present row
   std::vector<Piece> left_, next_;
+  std::array<HexLines::Line, kMostLines> line_;  // the present row of a hex
+  std::array<Vec3, kMostLines> from_, step_;
   std::vector<Share> shares_;
 };
 

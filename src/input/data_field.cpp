@@ -68,36 +68,6 @@ class Axis {
   bool equal_;
 };
 
-// Adds up what each material gets, and tells it in ascending order.
-class Shares {
- public:
-  explicit Shares(std::int32_t materials) : sum_(static_cast<std::size_t>(materials), 0.0) {}
-
-  // share > 0
-  void add(std::int32_t material, double share) {
-    double& sum = sum_[static_cast<std::size_t>(material)];
-    if (sum == 0) present_.push_back(material);
-    sum += share;
-  }
-  // Appends the shares as a cell and forgets them.
-  void move_to(Fractions& out) {
-    std::sort(present_.begin(), present_.end());
-    double whole = 0;
-    for (const std::int32_t m : present_) whole += sum_[static_cast<std::size_t>(m)];
-    for (const std::int32_t m : present_) {
-      double& sum = sum_[static_cast<std::size_t>(m)];
-      out.add(m, sum / whole);
-      sum = 0;
-    }
-    out.end_cell();
-    present_.clear();
-  }
-
- private:
-  std::vector<double> sum_;  // by material; 0: not present
-  std::vector<std::int32_t> present_;
-};
-
 // The cells that a box overlaps, and their weights per axis.
 class Overlap {
  public:
@@ -133,7 +103,7 @@ class Overlap {
 };
 
 // What both kinds of data share: from a box to its cells.
-class DataField : public MaterialField {
+class DataField : public VoxelField {
  public:
   DataField(const Grid& grid, const IndexBox& known, std::int32_t materials)
       : overlap_(grid, known), known_(known), shares_(materials) {}
@@ -154,7 +124,10 @@ class DataField : public MaterialField {
   }
 
   [[nodiscard]] std::optional<std::int32_t> sole_material(const Box& box) final {
-    const IndexBox cells = overlap_.cells(box);
+    return sole_material(overlap_.cells(box));
+  }
+  [[nodiscard]] std::optional<std::int32_t> sole_material(const IndexBox& cells) const final {
+    check(intersection(cells, known_) == cells, "a hex reaches beyond the cells that were read");
     const std::optional<std::int32_t> sole = sole_of(position(cells.lo));
     if (!sole) return std::nullopt;
     const auto length = static_cast<std::size_t>(cells.extent(0));
@@ -164,11 +137,17 @@ class DataField : public MaterialField {
     return sole;
   }
 
+  void add(const Index3& cell, double weight, Shares& shares) const final {
+    check(known_.contains(cell), "a hex reaches beyond the cells that were read");
+    add_cell(position(cell), weight, shares);
+  }
+
  private:
   [[nodiscard]] std::size_t position(const Index3& cell) const {
     return static_cast<std::size_t>(known_.position(cell));
   }
   virtual void put_cell(std::size_t cell, Fractions& out) const = 0;
+  virtual void add_cell(std::size_t cell, double weight, Shares& shares) const = 0;
   // Adds a row of cells along x, with weights along x times that of the row.
   virtual void add_row(std::size_t first, const std::vector<double>& wx, double row,
                        Shares& shares) const = 0;
@@ -191,6 +170,9 @@ class PureField final : public DataField {
   void put_cell(std::size_t cell, Fractions& out) const override {
     out.add(material_[cell], 1.0);
     out.end_cell();
+  }
+  void add_cell(std::size_t cell, double weight, Shares& shares) const override {
+    shares.add(material_[cell], weight);
   }
   void add_row(std::size_t first, const std::vector<double>& wx, double row, Shares& shares) const override {
     const std::int32_t* const material = material_.data() + first;
@@ -233,6 +215,10 @@ class MixedField final : public DataField {
       out.add(fractions_.material[e], fractions_.value[e]);
     out.end_cell();
   }
+  void add_cell(std::size_t cell, double weight, Shares& shares) const override {
+    for (std::size_t e = begin(cell); e < begin(cell + 1); ++e)
+      shares.add(fractions_.material[e], fractions_.value[e] * weight);
+  }
   // Pure cells in the runs in which PureField adds them: which class a rank takes depends on its part of the
   // data, what is said of a box must not.
   void add_row(std::size_t first, const std::vector<double>& wx, double row, Shares& shares) const override {
@@ -266,7 +252,7 @@ class MixedField final : public DataField {
 
 }  // namespace
 
-std::unique_ptr<MaterialField> data_field(const Grid& grid, const IndexBox& known, Fractions fractions) {
+std::unique_ptr<VoxelField> data_field(const Grid& grid, const IndexBox& known, Fractions fractions) {
   check(fractions.cells() == known.size(), "a field needs the fractions of all of its cells");
   const auto largest = std::max_element(fractions.material.begin(), fractions.material.end());
   const std::int32_t materials = largest == fractions.material.end() ? 0 : *largest + 1;

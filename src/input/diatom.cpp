@@ -1,6 +1,7 @@
 #include "input/diatom.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "input/deck_grid.hpp"
 #include "input/diatom_file.hpp"
@@ -43,6 +44,10 @@ class DiatomSource final : public MaterialSource {
     return shape_field(shapes_, grid_, outside_);
   }
 
+  [[nodiscard]] std::unique_ptr<HexField> hex_field(Fractions, const IndexBox&, std::int32_t) const override {
+    return shape_hex_field(shapes_, grid_, outside_);
+  }
+
   [[nodiscard]] ExactSurface exact_surface() const override { return surfaces_of(shapes_, grid_); }
 
  private:
@@ -72,16 +77,31 @@ class DiatomSource final : public MaterialSource {
   std::int32_t outside_ = 0;  // dense index of what no shape covers
 };
 
+// A grid to find shapes by: cubes, about eight per shape.
+Grid grid_over(const Box& overlay, std::size_t shapes) {
+  constexpr double kCellsPerShape = 8, kMostPerAxis = 1024;
+  const Vec3 size = overlay.hi - overlay.lo;
+  const double width = std::cbrt(size.x * size.y * size.z /
+                                 (kCellsPerShape * static_cast<double>(std::max<std::size_t>(shapes, 1))));
+  Index3 cells{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    check(size[d] > 0, "the bounds of an overlay mesh are no box");
+    cells[d] = static_cast<std::int64_t>(std::clamp(std::ceil(size[d] / width), 1.0, kMostPerAxis));
+  }
+  return box_grid(cells, overlay.lo, overlay.hi);
+}
+
 }  // namespace
 
-std::unique_ptr<MaterialSource> open_diatom(const Comm& comm, const Deck& deck, const Log& log) {
+std::unique_ptr<MaterialSource> open_diatom(const Comm& comm, const Deck& deck, const Log& log,
+                                            const std::optional<Box>& overlay) {
   const std::string& path = deck.diatom_file;
   Grid grid;
   std::string text;
   log.line("initializing geometry...");
   log.line(" Parsing diatom input");
   collectively(comm, "opening " + path, [&] {
-    grid = deck_box_grid(deck, "diatom_file");
+    if (!overlay) grid = deck_box_grid(deck, "diatom_file");
     if (comm.rank() != 0) return;
     const TextFile file(path, "diatom_file");
     text.resize(static_cast<std::size_t>(file.size()));
@@ -91,7 +111,10 @@ std::unique_ptr<MaterialSource> open_diatom(const Comm& comm, const Deck& deck, 
   text = comm.broadcast(std::move(text), 0);
   log.line(" Finished communicating diatom master buffer");
   std::vector<DiatomShape> shapes;
-  collectively(comm, "reading " + path, [&] { shapes = parse_diatom(text, path); });
+  collectively(comm, "reading " + path, [&] {
+    shapes = parse_diatom(text, path);
+    if (overlay) grid = grid_over(*overlay, shapes.size());
+  });
   log.line(" Finished creating diatoms");
   return std::make_unique<DiatomSource>(deck, std::move(shapes), std::move(grid), log);
 }

@@ -9,7 +9,15 @@
 namespace sculpt {
 namespace {
 
-using Open = std::unique_ptr<MaterialSource> (*)(const Comm&, const Deck&, const Log&);
+using Open = std::unique_ptr<MaterialSource> (*)(const Comm&, const Deck&, const Log&,
+                                                 const std::optional<Box>& overlay);
+
+// A source whose data have a grid of their own.
+template <auto open>
+std::unique_ptr<MaterialSource> on_its_grid(const Comm& comm, const Deck& deck, const Log& log,
+                                            const std::optional<Box>&) {
+  return open(comm, deck, log);
+}
 
 struct Format {
   const char* option;
@@ -17,20 +25,20 @@ struct Format {
   Open open;  // null: not supported yet
 };
 
-constexpr std::array<Format, 8> kFormats{{
-    {"input_spn", &Deck::input_spn, open_spn},
-    {"input_micro", &Deck::input_micro, open_micro},
+constexpr std::array<Format, 7> kFormats{{
+    {"input_spn", &Deck::input_spn, on_its_grid<open_spn>},
+    {"input_micro", &Deck::input_micro, on_its_grid<open_micro>},
     {"diatom_file", &Deck::diatom_file, open_diatom},
-    {"input_cart_exo", &Deck::input_cart_exo, open_cart_exo},
+    {"input_cart_exo", &Deck::input_cart_exo, on_its_grid<open_cart_exo>},
     {"stl_file", &Deck::stl_file, nullptr},
     {"input_vfrac", &Deck::input_vfrac, nullptr},
     {"input_stitch", &Deck::input_stitch, nullptr},
-    {"input_mesh", &Deck::input_mesh, nullptr},
 }};
 
 }  // namespace
 
-std::unique_ptr<MaterialSource> open_source(const Comm& comm, const Deck& deck, const Log& log) {
+std::unique_ptr<MaterialSource> open_source(const Comm& comm, const Deck& deck, const Log& log,
+                                            const std::optional<Box>& overlay) {
   const Format* chosen = nullptr;
   collectively(comm, "choosing the input", [&] {
     for (const Format& format : kFormats) {
@@ -45,7 +53,7 @@ std::unique_ptr<MaterialSource> open_source(const Comm& comm, const Deck& deck, 
       throw Error(
           "no source of materials: expected one of input_spn, input_micro, diatom_file and input_cart_exo");
   });
-  return chosen->open(comm, deck, log);
+  return chosen->open(comm, deck, log, overlay);
 }
 
 }  // namespace sculpt

@@ -15,6 +15,11 @@ namespace sculpt {
 [[nodiscard]] std::unique_ptr<MaterialField> shape_field(
     std::shared_ptr<const std::vector<InsertedShape>> shapes, const Grid& grid, std::int32_t outside);
 
+// Local. The field of MaterialSource for shapes in hexes; the grid tells where most hexes will be. Box hexes
+// get what shape_field() says of the box, to the last bit.
+[[nodiscard]] std::unique_ptr<HexField> shape_hex_field(
+    std::shared_ptr<const std::vector<InsertedShape>> shapes, const Grid& grid, std::int32_t outside);
+
 // Local. The fractions of the cells of a box of the grid, x fastest.
 [[nodiscard]] Fractions measure_cells(const Grid& grid, const IndexBox& box, MaterialField& field);
 

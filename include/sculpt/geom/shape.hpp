@@ -31,6 +31,10 @@ class Shape {
   // The three spans are equally long.
   virtual void chords(std::size_t axis, double u, std::span<const double> v, std::span<double> lo,
                       std::span<double> hi) const = 0;
+  // The same of any lines: the pieces lo <= t <= hi of from + t * step. A line whose step has no length has
+  // no piece. The four spans are equally long.
+  virtual void line_chords(std::span<const Vec3> from, std::span<const Vec3> step, std::span<double> lo,
+                           std::span<double> hi) const = 0;
   // The point of the surface nearest to p, where the shape can tell it in closed form.
   [[nodiscard]] virtual std::optional<Vec3> nearest_on_surface(const Vec3& p) const {
     (void)p;

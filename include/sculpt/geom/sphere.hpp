@@ -15,6 +15,8 @@ class Sphere final : public Shape {
   [[nodiscard]] std::size_t steepest_axis(const Vec3& point) const override;
   void chords(std::size_t axis, double u, std::span<const double> v, std::span<double> lo,
               std::span<double> hi) const override;
+  void line_chords(std::span<const Vec3> from, std::span<const Vec3> step, std::span<double> lo,
+                   std::span<double> hi) const override;
   // Nothing at the centre.
   [[nodiscard]] std::optional<Vec3> nearest_on_surface(const Vec3& p) const override;
 

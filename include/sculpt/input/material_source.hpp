@@ -11,6 +11,7 @@
 #include "sculpt/base/log.hpp"
 #include "sculpt/base/types.hpp"
 #include "sculpt/deck/deck.hpp"
+#include "sculpt/geom/hex.hpp"
 #include "sculpt/geom/shape.hpp"
 #include "sculpt/grid/grid.hpp"
 #include "sculpt/par/comm.hpp"
@@ -79,6 +80,16 @@ class MaterialField {
   [[nodiscard]] virtual std::optional<std::int32_t> sole_material(const Box& box) = 0;
 };
 
+// The materials of general hexes, the cells of an overlay grid that are no boxes. Local. The hexes have a
+// positive Jacobian. What is said of a hex depends on its corners and the input only, not on the rank's part.
+// One thread at a time. Stays usable when the source is gone.
+class HexField {
+ public:
+  virtual ~HexField() = default;
+  // Appends the hex as one cell: materials ascending, fractions in (0,1] whose sum is 1, end_cell() called.
+  virtual void measure(const HexCorners& hex, Fractions& out) = 0;
+};
+
 class MaterialSource {
  public:
   virtual ~MaterialSource() = default;
@@ -97,12 +108,27 @@ class MaterialSource {
   // box and knows what lies beyond the grid.
   [[nodiscard]] virtual std::unique_ptr<MaterialField> field(Fractions fractions,
                                                              const IndexBox& wanted) const;
+  // Local, after read(), like field(). The field of data on equal voxels (BrokenPromise otherwise): a hex
+  // that is smaller than half a voxel gets the average of the voxels around its centre, weighted by the
+  // inverse square of the distance, of those in the grid; any other gets what it overlaps, measured along
+  // lines, a box exactly. Space beyond the grid is of the material `outside`; it does not spread inwards. The
+  // voxels that hexes need are those of voxels_for(). The field of shapes knows what lies outside: it is
+  // given nothing and may be asked anywhere. Box hexes get what field() says of the box, to the last bit
+  // (data: within the grid, from half a voxel on).
+  [[nodiscard]] virtual std::unique_ptr<HexField> hex_field(Fractions fractions, const IndexBox& wanted,
+                                                            std::int32_t outside) const;
   // What the input knows exactly of its surfaces. Stays usable when the source is gone.
   [[nodiscard]] virtual ExactSurface exact_surface() const { return {}; }
 };
 
+// The voxels of a grid that the hexes of data need, of all hexes within a box; empty when they lie outside.
+[[nodiscard]] IndexBox voxels_for(const Grid& grid, const Box& hexes);
+
 // Collective. Opens the one geometry source of the deck, checks what can be checked before reading the data,
-// and prints the summary that real Sculpt prints. Throws AgreedError.
-[[nodiscard]] std::unique_ptr<MaterialSource> open_source(const Comm& comm, const Deck& deck, const Log& log);
+// and prints the summary that real Sculpt prints. `overlay`: the bounds of an overlay mesh that is not the
+// grid of the source; shapes then need neither counts nor box in the deck, and their grid() is only a means
+// of finding them. Throws AgreedError.
+[[nodiscard]] std::unique_ptr<MaterialSource> open_source(const Comm& comm, const Deck& deck, const Log& log,
+                                                          const std::optional<Box>& overlay = std::nullopt);
 
 }  // namespace sculpt

@@ -111,6 +111,36 @@ TEST(Validate, NeedsExactlyOneGeometry) {
             "(line 2 of deck.i)");
 }
 
+TEST(Validate, AMeshIsTheGridOfSomeSources) {
+  EXPECT_EQ(verdict("input_mesh = m.g"), "no error");
+  EXPECT_EQ(verdict("input_mesh = m.g\ninput_mesh_blocks = 2 4\ndiatom_file = a.diatom"), "no error");
+  EXPECT_EQ(verdict("input_mesh_pamgen = m.p\ndiatom_file = a.diatom"), "no error");
+  EXPECT_EQ(verdict(kSpn + "input_mesh = m.g"), "no error");
+  EXPECT_EQ(verdict("input_mesh = m.g\ninput_spn = a.spn\nnelx = 3"),
+            "input_spn needs the number of cells nelx, nely and nelz; given: nelx = 3 (line 4 of deck.i); "
+            "not given: nely, nelz");
+  for (const char* source : {"input_micro", "input_cart_exo"})
+    EXPECT_EQ(
+        verdict(std::string("input_mesh = m.g\n") + source + " = a"),
+        std::string("input_mesh takes its materials from its element variables, stl_file, diatom_file or "
+                    "input_spn; given: input_mesh = m.g (line 2 of deck.i), ") +
+            source + " = a (line 3 of deck.i)");
+  EXPECT_EQ(verdict("input_mesh = m.g\ninput_mesh_pamgen = m.p"),
+            "only one mesh can be the overlay grid; given: input_mesh = m.g (line 2 of deck.i), "
+            "input_mesh_pamgen = m.p (line 3 of deck.i)");
+  EXPECT_EQ(
+      verdict("input_mesh_pamgen = m.p"),
+      "input_mesh_pamgen has no element variables; give one of stl_file, diatom_file or input_spn; given: "
+      "input_mesh_pamgen = m.p (line 2 of deck.i)");
+  EXPECT_EQ(
+      verdict(kSpn + "input_mesh_blocks = 2"),
+      "input_mesh_blocks needs input_mesh or input_mesh_pamgen; given: input_mesh_blocks = 2 (line 6 of "
+      "deck.i)");
+  EXPECT_EQ(verdict("input_mesh = m.g\ndiatom_file = a\ninput_spn = b"),
+            "only one input geometry is allowed; given: diatom_file = a (line 3 of deck.i), input_spn = b "
+            "(line 4 of deck.i)");
+}
+
 TEST(Validate, NamesWhatAnInputLacks) {
   EXPECT_EQ(verdict("input_spn = a.spn\nnelx = 3"),
             "input_spn needs the number of cells nelx, nely and nelz; given: nelx = 3 (line 3 of deck.i); "

@@ -37,10 +37,9 @@ sculpt::RankMesh rank_mesh(const Mesh& mesh, const std::string& title) {
   }
   if (mesh.variables.empty()) return out;
   out.times = {0};
-  out.element_values.emplace_back();
   for (const Mesh::Variable& v : mesh.variables) {
     out.element_variables.push_back({v.name, std::vector<std::uint8_t>(mesh.blocks.size(), 1)});
-    out.element_values[0].insert(out.element_values[0].end(), v.value.begin(), v.value.end());
+    out.element_values.push_back(v.value);
   }
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <limits>
 #include <map>
 
@@ -50,11 +51,26 @@ std::size_t allow_long_names(const ExodusFile& file) {
 }
 
 void check_range(const std::string& path, const std::string& where, const std::vector<std::int32_t>& list,
-                 std::int64_t largest, std::int64_t per_item, const char* what) {
+                 std::int64_t largest, const char* what, std::int64_t first = 0, std::int64_t per_item = 1) {
   for (std::size_t n = 0; n < list.size(); ++n)
     if (list[n] < 1 || list[n] > largest)
       throw Error(fmt::format("'{}', {}, entry {}: {} {} does not exist, expected 1 to {}", path, where,
-                              static_cast<std::int64_t>(n) / per_item + 1, what, list[n], largest));
+                              first + static_cast<std::int64_t>(n) / per_item + 1, what, list[n], largest));
+}
+
+// The range with its end known. Ranges come from this program, never from a file.
+ExodusRange within(ExodusRange range, std::int64_t size) {
+  if (range.count == ExodusRange::kToTheEnd) range.count = size - range.first;
+  check(range.first >= 0 && range.count >= 0 && range.first + range.count <= size,
+        "exodus: items beyond the end of a list");
+  return range;
+}
+
+void refuse_repetitions(const std::string& path, const char* what, Ints ids) {
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end())
+    throw Error(fmt::format("'{}': two {}s have the id {}, expected different ids", path, what, *twice));
 }
 
 std::vector<std::int32_t> narrowed(const Ints& wide) { return {wide.begin(), wide.end()}; }
@@ -97,6 +113,7 @@ void ExodusReader::read_blocks() {
   }
   const std::size_t longest = allow_long_names(*file_);
   const Ints ids = read_ids(*file_, EX_ELEM_BLOCK, blocks.size(), "reading the block ids");
+  refuse_repetitions(path_, "block", ids);
   const auto names = read_names(*file_, EX_ELEM_BLOCK, blocks.size(), longest);
   std::int64_t sum = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -122,6 +139,7 @@ void ExodusReader::read_sets() {
     if (sets.empty()) return;
     const std::size_t longest = allow_long_names(*file_);
     const Ints ids = read_ids(*file_, type, sets.size(), "reading the set ids");
+    refuse_repetitions(path_, what, ids);
     const auto names = read_names(*file_, type, sets.size(), longest);
     for (std::size_t s = 0; s < sets.size(); ++s) {
       std::int64_t count = 0, factors = 0;
@@ -187,6 +205,7 @@ void ExodusReader::read_global() {
     return;  // tables of some other program; the local counts stand
   header_.nemesis = true;
   header_.ranks = ranks;
+  header_.kind = type[0];
   header_.global_nodes = nodes;
   header_.global_elements = elements;
   const auto assign = [this](auto& entities, const auto& get, const char* doing) {
@@ -207,77 +226,99 @@ void ExodusReader::read_global() {
       "reading the global side sets");
 }
 
-void ExodusReader::coordinates(std::vector<double>& x, std::vector<double>& y, std::vector<double>& z) {
-  const auto nodes = static_cast<std::size_t>(header_.nodes);
-  x.resize(nodes);
-  y.resize(nodes);
-  z.resize(nodes);
-  if (nodes > 0)
-    file_->must(ex_get_coord(file_->id(), x.data(), y.data(), z.data()), "reading the coordinates");
+void ExodusReader::coordinates(std::vector<double>& x, std::vector<double>& y, std::vector<double>& z,
+                               ExodusRange nodes) {
+  nodes = within(nodes, header_.nodes);
+  for (std::vector<double>* axis : {&x, &y, &z}) axis->resize(static_cast<std::size_t>(nodes.count));
+  if (nodes.count > 0)
+    file_->must(ex_get_partial_coord(file_->id(), nodes.first + 1, nodes.count, x.data(), y.data(), z.data()),
+                "reading the coordinates");
 }
 
-std::vector<std::int64_t> ExodusReader::node_ids() {
-  Ints ids(static_cast<std::size_t>(header_.nodes));
-  if (!ids.empty()) file_->must(ex_get_id_map(file_->id(), EX_NODE_MAP, ids.data()), "reading the node ids");
-  return ids;
-}
-
-std::vector<std::int64_t> ExodusReader::element_ids() {
-  Ints ids(static_cast<std::size_t>(header_.elements));
+std::vector<std::int64_t> ExodusReader::node_ids(ExodusRange nodes) {
+  nodes = within(nodes, header_.nodes);
+  Ints ids(static_cast<std::size_t>(nodes.count));
   if (!ids.empty())
-    file_->must(ex_get_id_map(file_->id(), EX_ELEM_MAP, ids.data()), "reading the element ids");
+    file_->must(ex_get_partial_id_map(file_->id(), EX_NODE_MAP, nodes.first + 1, nodes.count, ids.data()),
+                "reading the node ids");
   return ids;
 }
 
-std::vector<std::int32_t> ExodusReader::connectivity(std::size_t b) {
+std::vector<std::int64_t> ExodusReader::element_ids(ExodusRange elements) {
+  elements = within(elements, header_.elements);
+  Ints ids(static_cast<std::size_t>(elements.count));
+  if (!ids.empty())
+    file_->must(
+        ex_get_partial_id_map(file_->id(), EX_ELEM_MAP, elements.first + 1, elements.count, ids.data()),
+        "reading the element ids");
+  return ids;
+}
+
+std::vector<std::int32_t> ExodusReader::connectivity(std::size_t b, ExodusRange elements) {
   const Block& block = header_.blocks.at(b);
-  std::vector<std::int32_t> nodes(static_cast<std::size_t>(block.count) *
+  elements = within(elements, block.count);
+  std::vector<std::int32_t> nodes(static_cast<std::size_t>(elements.count) *
                                   static_cast<std::size_t>(block.nodes_per_element));
   if (nodes.empty()) return nodes;
   file_->use_int32();
-  file_->must(ex_get_conn(file_->id(), EX_ELEM_BLOCK, block.id, nodes.data(), nullptr, nullptr),
+  file_->must(ex_get_partial_conn(file_->id(), EX_ELEM_BLOCK, block.id, elements.first + 1, elements.count,
+                                  nodes.data(), nullptr, nullptr),
               "reading the connectivity");
   file_->use_int64();
-  check_range(path_, fmt::format("block {}", block.id), nodes, header_.nodes, block.nodes_per_element,
-              "node");
+  check_range(path_, fmt::format("block {}", block.id), nodes, header_.nodes, "node", elements.first,
+              block.nodes_per_element);
   return nodes;
 }
 
 void ExodusReader::side_set(std::size_t s, std::vector<std::int32_t>& element,
-                            std::vector<std::int32_t>& side) {
+                            std::vector<std::int32_t>& side, ExodusRange entries) {
   const Set& set = header_.side_sets.at(s);
-  element.resize(static_cast<std::size_t>(set.count));
-  side.resize(static_cast<std::size_t>(set.count));
-  if (set.count == 0) return;
+  entries = within(entries, set.count);
+  element.resize(static_cast<std::size_t>(entries.count));
+  side.resize(static_cast<std::size_t>(entries.count));
+  if (entries.count == 0) return;
   file_->use_int32();
-  file_->must(ex_get_set(file_->id(), EX_SIDE_SET, set.id, element.data(), side.data()),
+  file_->must(ex_get_partial_side_set(file_->id(), set.id, entries.first + 1, entries.count, element.data(),
+                                      side.data()),
               "reading a side set");
   file_->use_int64();
-  check_range(path_, fmt::format("side set {}", set.id), element, header_.elements, 1, "element");
-  check_range(path_, fmt::format("side set {}", set.id), side, 6, 1, "side");
+  const std::string where = fmt::format("side set {}", set.id);
+  check_range(path_, where, element, header_.elements, "element", entries.first);
+  check_range(path_, where, side, 6, "side", entries.first);
 }
 
-std::vector<std::int32_t> ExodusReader::node_set(std::size_t s) {
+std::vector<std::int32_t> ExodusReader::node_set(std::size_t s, ExodusRange entries) {
   const Set& set = header_.node_sets.at(s);
-  std::vector<std::int32_t> nodes(static_cast<std::size_t>(set.count));
-  if (set.count == 0) return nodes;
+  entries = within(entries, set.count);
+  std::vector<std::int32_t> nodes(static_cast<std::size_t>(entries.count));
+  if (nodes.empty()) return nodes;
   file_->use_int32();
-  file_->must(ex_get_set(file_->id(), EX_NODE_SET, set.id, nodes.data(), nullptr), "reading a node set");
+  file_->must(ex_get_partial_node_set(file_->id(), set.id, entries.first + 1, entries.count, nodes.data()),
+              "reading a node set");
   file_->use_int64();
-  check_range(path_, fmt::format("node set {}", set.id), nodes, header_.nodes, 1, "node");
+  check_range(path_, fmt::format("node set {}", set.id), nodes, header_.nodes, "node", entries.first);
   return nodes;
 }
 
+std::vector<double> ExodusReader::block_values(std::size_t step, std::size_t variable, std::size_t b,
+                                               ExodusRange elements) {
+  const Block& block = header_.blocks.at(b);
+  elements = within(elements, block.count);
+  std::vector<double> values(static_cast<std::size_t>(elements.count), 0);
+  if (!values.empty() && header_.element_variables.at(variable).in_block[b] != 0)
+    file_->must(ex_get_partial_var(file_->id(), static_cast<int>(step) + 1, EX_ELEM_BLOCK,
+                                   static_cast<int>(variable) + 1, block.id, elements.first + 1,
+                                   elements.count, values.data()),
+                "reading an element variable");
+  return values;
+}
+
 std::vector<double> ExodusReader::element_values(std::size_t step, std::size_t variable) {
-  std::vector<double> values(static_cast<std::size_t>(header_.elements), 0);
-  std::size_t first = 0;
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(header_.elements));
   for (std::size_t b = 0; b < header_.blocks.size(); ++b) {
-    const Block& block = header_.blocks[b];
-    if (block.count > 0 && header_.element_variables.at(variable).in_block[b] != 0)
-      file_->must(ex_get_var(file_->id(), static_cast<int>(step) + 1, EX_ELEM_BLOCK,
-                             static_cast<int>(variable) + 1, block.id, block.count, values.data() + first),
-                  "reading an element variable");
-    first += static_cast<std::size_t>(block.count);
+    const std::vector<double> of_block = block_values(step, variable, b);
+    values.insert(values.end(), of_block.begin(), of_block.end());
   }
   return values;
 }
@@ -333,16 +374,21 @@ void ExodusReader::nemesis(RankMesh& mesh) {
     }
   }
   for (auto& [rank, map] : by_rank) {
-    check_range(path_, fmt::format("node map of rank {}", rank), map.nodes, header_.nodes, 1, "node");
+    check_range(path_, fmt::format("node map of rank {}", rank), map.nodes, header_.nodes, "node");
     map.rank = static_cast<int>(rank);
     mesh.node_maps.push_back(std::move(map));
   }
   for (auto& [rank, map] : faces_by_rank) {
-    check_range(path_, fmt::format("element map of rank {}", rank), map.element, header_.elements, 1,
-                "element");
+    check_range(path_, fmt::format("element map of rank {}", rank), map.element, header_.elements, "element");
     map.rank = static_cast<int>(rank);
     mesh.element_maps.push_back(std::move(map));
   }
+}
+
+bool is_hex(const ExodusReader::Block& block) {
+  std::string type = block.type;
+  std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
+  return block.nodes_per_element == 8 && (type == "hex" || type == "hex8");
 }
 
 RankMesh read_exodus(const std::string& path) {

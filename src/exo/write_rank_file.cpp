@@ -23,9 +23,13 @@ std::size_t begin_of_name(const std::string& path) {
 
 }  // namespace
 
-std::string rank_file_name(const std::string& base, int ranks, int rank, const std::string& extension) {
+std::string part_file_name(const std::string& path, int ranks, int rank) {
   const std::string total = std::to_string(ranks);
-  return fmt::format("{}.{}.{}.{:0{}}", base, extension, total, rank, total.size());
+  return fmt::format("{}.{}.{:0{}}", path, total, rank, total.size());
+}
+
+std::string rank_file_name(const std::string& base, int ranks, int rank, const std::string& extension) {
+  return part_file_name(base + "." + extension, ranks, rank);
 }
 
 std::string temporary_name(const std::string& final_name) {

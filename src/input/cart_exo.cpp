@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -29,12 +28,6 @@ struct CartesianFile {
 
 std::string text(const Vec3& p) { return fmt::format("({}, {}, {})", p.x, p.y, p.z); }
 std::string text(const Index3& c) { return fmt::format("({}, {}, {})", c[0], c[1], c[2]); }
-
-bool is_hex(const ExodusReader::Block& block) {
-  std::string type = block.type;
-  std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
-  return block.nodes_per_element == 8 && (type == "hex" || type == "hex8");
-}
 
 // Recognises the grid in two passes over the hexes: the first finds the corners of the grid and the size of a
 // cell, the second gives each hex its cell.

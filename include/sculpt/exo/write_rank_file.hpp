@@ -12,7 +12,11 @@
 
 namespace sculpt {
 
-// base.e.<ranks>.<rank>, the rank zero padded to the digits of `ranks`. The extension may be another one.
+// The part of `path` that one of several ranks has: path.<ranks>.<rank>, the rank zero padded to the digits
+// of `ranks`.
+[[nodiscard]] std::string part_file_name(const std::string& path, int ranks, int rank);
+
+// base.e.<ranks>.<rank>, as part_file_name() says. The extension may be another one.
 [[nodiscard]] std::string rank_file_name(const std::string& base, int ranks, int rank,
                                          const std::string& extension = "e");
 

@@ -99,14 +99,15 @@ std::string first_complaint(const std::string& echo) {
   constexpr std::string_view kMark = "***** ERROR Parsing: ";
   const std::size_t mark = echo.find(kMark);
   if (mark == std::string::npos) return {};
-  // Pamgen numbers the lines that it repeats: "    9:     gmn =". Those of earlier descriptions come first.
+  // Pamgen numbers the lines that it repeats: "    9:     gmn =". Those of earlier descriptions come
+  // first, and the last of each has no end of line.
   int line = 0;
   for (std::size_t at = 0; at < mark; at = std::min(echo.find('\n', at), mark - 1) + 1) {
     std::size_t digit = echo.find_first_not_of(' ', at);
     int number = 0;
     for (; digit < mark && std::isdigit(static_cast<unsigned char>(echo[digit])) != 0; ++digit)
       number = 10 * number + (echo[digit] - '0');
-    if ((number == line + 1 || number == 1) && digit < mark && echo[digit] == ':') line = number;
+    if (number > 0 && digit < mark && echo[digit] == ':') line = number;
   }
   // The complaint ends with its line; what was expected may stand on the next one.
   std::string_view rest = std::string_view(echo).substr(mark + kMark.size());

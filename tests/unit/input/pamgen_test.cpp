@@ -193,7 +193,8 @@ TEST(PamgenComplaint, Lines) {
   EXPECT_EQ(first_complaint("    1: mesh\n    2:  nx = 3:\n\n***** ERROR Parsing: odd \n\n    3: "),
             "line 2: odd");
   // Earlier descriptions are repeated too.
-  EXPECT_EQ(first_complaint("    1: a\n    2: b\n    1: a\n***** ERROR Parsing: c\n"), "line 1: c");
+  EXPECT_EQ(first_complaint("    1: a\n    2:     1: a\n    2: b\n    3: \n***** ERROR Parsing: c\n"),
+            "line 3: c");
   EXPECT_EQ(first_complaint("    1: a\n***** ERROR Parsing: b \nexpected c\n    2: d"),
             "line 1: b, expected c");
   EXPECT_EQ(first_complaint("    1: a\n***** ERROR Parsing: b\nSelect from:\n  c\n***** ERROR Parsing: d"),

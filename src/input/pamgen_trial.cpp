@@ -25,6 +25,7 @@ constexpr char kFailed = '!';  // the first character of an answer that is a pro
 std::string tidy(std::string_view text) {
   std::string tidied;
   for (const char c : text) {
+    if (tidied.ends_with('.') && c == 'T') tidied += ' ';  // Pamgen joins "....Terminating from ..."
     if (std::isspace(static_cast<unsigned char>(c)) == 0)
       tidied += c;
     else if (!tidied.empty() && tidied.back() != ' ')

@@ -153,8 +153,12 @@ TEST(PamgenErrors, AreInPamgensWords) {
       "be positive");
   EXPECT_NE(error_of(changed(kRectilinear, "ihi, 30, 1", "ihi, 30, 7")).find("block index 7 is outside"),
             std::string::npos);
-  EXPECT_NE(error_of(changed(kRectilinear, "nx = 4", "nx = 0")).find("input_mesh_pamgen: 'FILE': "),
+  EXPECT_NE(error_of(changed(kRectilinear, "nx = 4", "nx = 0")).find("Inline_Mesh_Desc::Decompose"),
             std::string::npos);
+  EXPECT_NE(error_of(changed(kRectilinear, "nx = 4", "nx = 1000000000"))
+                .find("600000000000 elements requested, max 2147483647 elements permitted. Terminating"),
+            std::string::npos)
+      << error_of(changed(kRectilinear, "nx = 4", "nx = 1000000000"));
 }
 
 // Pamgen ends the process at these.

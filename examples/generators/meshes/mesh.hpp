@@ -1,5 +1,5 @@
 #pragma once
-// A hex mesh being made: plain arrays on one machine, numbers from 0. The same command gives the same bytes
+// A hex mesh being made: plain arrays, numbers from 0. The same command gives the same mesh to the last bit
 // on every machine: coordinates come from +, -, *, / and sqrt alone, which are rounded alike everywhere.
 #include <array>
 #include <cstdint>

@@ -3,8 +3,8 @@
 # debian-packages.sh [PACKAGE...]: further packages to install with them. Does nothing on other systems.
 set -euo pipefail
 
-packages=(build-essential cmake ninja-build libexodusii-dev libtrilinos-zoltan-dev libopenmpi-dev openmpi-bin
-  libfmt-dev libgtest-dev "$@")
+packages=(build-essential cmake ninja-build libexodusii-dev libtrilinos-zoltan-dev libtrilinos-pamgen-dev
+  libopenmpi-dev openmpi-bin libfmt-dev libgtest-dev "$@")
 
 command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || exit 0
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "balls.hpp"
 #include "fractions.hpp"
 #include "grains.hpp"
 #include "phases.hpp"
@@ -22,6 +23,7 @@ constexpr const char* kHelp = R"(Usage:
   microstructure grains NX NY NZ GRAINS SEED FILE.spn     polycrystal, rough grain boundaries
   microstructure phases NX NY NZ RADIUS SEED FILE.spn     two interwoven phases, ids 1 and 2
   microstructure spray NX NY NZ SEED FILE.spn             spray deposit: 1 pores, 2 and 3 splats
+  microstructure balls NX NY NZ COUNT SEED FILE.spn       balls (2) in a matrix (1)
   microstructure fractions NX NY NZ GRAINS SEED FILE.tec  polycrystal as volume fractions
   microstructure spheres BOX COUNT SEED FILE.diatom       balls of several sizes in the cube from 0 to BOX
 
@@ -83,6 +85,12 @@ void make(Arguments& arguments) {
     const Counts n = arguments.counts();
     const std::uint64_t seed = arguments.seed();
     write_spn(arguments.text(), microstructure::make_spray(n, seed));
+  } else if (kind == "balls") {
+    microstructure::BallOptions options;
+    options.n = arguments.counts();
+    options.count = arguments.number(1, 10000);
+    options.seed = arguments.seed();
+    write_spn(arguments.text(), make_balls(options));
   } else if (kind == "spheres") {
     microstructure::SphereOptions options;
     options.box = arguments.number(1, 100000);
@@ -90,7 +98,8 @@ void make(Arguments& arguments) {
     options.seed = arguments.seed();
     write_spheres(arguments.text(), options);
   } else {
-    throw std::runtime_error("found '" + kind + "', expected grains, phases, spray, fractions or spheres");
+    throw std::runtime_error("found '" + kind +
+                             "', expected grains, phases, spray, balls, fractions or spheres");
   }
 }
 

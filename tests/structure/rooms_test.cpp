@@ -127,6 +127,8 @@ TEST(Rooms, WrapTheirLibraries) {
     if (i.header == "mpi.h") EXPECT_EQ(i.room, "par") << place(i);
     if (i.header == "exodusII.h" || i.header == "netcdf.h") EXPECT_EQ(i.room, "exo") << place(i);
     if (i.header == "zoltan.h") EXPECT_EQ(i.room, "par") << place(i);
+    if (i.header == "create_inline_mesh.h" || i.header.starts_with("pamgen_"))
+      EXPECT_EQ(i.room, "input") << place(i);
     EXPECT_FALSE(i.header.starts_with("gtest/")) << place(i);
   }
 }

@@ -27,8 +27,7 @@ constexpr double kLinesPerFace = 64;  // lines per voxel face
 struct Lattice {
   int points, multiplier;
 };
-constexpr std::array<Lattice, 6> kLattices{
-    {{89, 55}, {144, 89}, {233, 144}, {377, 233}, {610, 377}, {987, 610}}};
+constexpr std::array<Lattice, 5> kLattices{{{144, 89}, {233, 144}, {377, 233}, {610, 377}, {987, 610}}};
 
 class HexDataField final : public HexField {
  public:

@@ -1,5 +1,3 @@
-#include <chrono>
-#include <iostream>
 #include <numbers>
 
 #include "hex_fixture.hpp"
@@ -56,8 +54,8 @@ TEST(HexShapeField, BoxesGetTheSameBits) {
 TEST(HexShapeField, MeasuresOneBallOfAnySizeInWarpedHexes) {
   for (const double radius : {0.3, 0.6, 1.0, 2.0, 4.0, 30.0}) {
     Random random(2);
-    double squares = 0, worst = 0;
-    constexpr int kHexes = 60;
+    double worst = 0;
+    constexpr int kHexes = 10;
     for (int n = 0; n < kHexes; ++n) {
       const Vec3 at = random_point(random, 4, 6);
       const Vec3 centre = at + uniform(random, 0.8, 1.0) * radius * unit(random_point(random, -1, 1));
@@ -66,12 +64,10 @@ TEST(HexShapeField, MeasuresOneBallOfAnySizeInWarpedHexes) {
       Fractions f;
       shape_hex_field(shapes, kSpace, 1)->measure(hex, f);
       const double expected =
-          shares_by_points(hex, 2, 120, [&](const Vec3& p) { return material_at(*shapes, p, 1); })[0];
+          shares_by_points(hex, 2, 48, [&](const Vec3& p) { return material_at(*shapes, p, 1); })[0];
       const double error = fraction_of(f, 0, 0) - expected;
       worst = std::max(worst, std::fabs(error));
-      squares += error * error;
     }
-    std::cout << "radius " << radius << " worst " << worst << " rms " << std::sqrt(squares / kHexes) << "\n";
     EXPECT_LT(worst, 1e-3) << "radius " << radius;
   }
 }
@@ -81,18 +77,17 @@ TEST(HexShapeField, TheFirstOfOverlappingShapesWins) {
   double worst = 0;
   const auto shapes = balls(random, 200, 0.5, 2);
   const auto field = shape_hex_field(shapes, kSpace, 3);
-  for (int n = 0; n < 60; ++n) {
+  for (int n = 0; n < 15; ++n) {
     const HexCorners hex = random_hex(random, random_point(random, 0, 10), 0.8, 0.15);
     MaterialData data;
     field->measure(hex, data.fractions);
     expect_valid(data);
     const std::vector<double> expected =
-        shares_by_points(hex, 4, 80, [&](const Vec3& p) { return material_at(*shapes, p, 3); });
+        shares_by_points(hex, 4, 32, [&](const Vec3& p) { return material_at(*shapes, p, 3); });
     for (std::int32_t m = 0; m < 4; ++m)
       worst = std::max(worst,
                        std::fabs(fraction_of(data.fractions, 0, m) - expected[static_cast<std::size_t>(m)]));
   }
-  std::cout << "overlapping: worst " << worst << "\n";
   EXPECT_LT(worst, 3e-3);
 }
 
@@ -171,27 +166,6 @@ TEST(HexShapeField, DiatomSourceNeedsNoGridOnAMesh) {
   field->measure(box_hex({0, 0, 0}, {1, 1, 1}), f);
   EXPECT_EQ(fraction_of(f, 0, 0), 1);
   EXPECT_EQ(fraction_of(f, 1, 1), 1);
-}
-
-TEST(HexShapeField, DISABLED_Speed) {
-  Random random(4);
-  const auto shapes = balls(random, 30, 0.8, 2);
-  const auto field = shape_hex_field(shapes, kSpace, 3);
-  std::vector<HexCorners> hexes;
-  for (int n = 0; n < 20000; ++n) hexes.push_back(random_hex(random, random_point(random, 0, 10), 0.25, 0.1));
-  double pure = 0, cut = 0;
-  int pures = 0, cuts = 0;
-  for (const HexCorners& hex : hexes) {
-    Fractions f;
-    const auto t0 = std::chrono::steady_clock::now();
-    field->measure(hex, f);
-    const double us =
-        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - t0).count();
-    (f.value.size() == 1 ? pure : cut) += us;
-    ++(f.value.size() == 1 ? pures : cuts);
-  }
-  std::cout << "pure " << pure / pures << " us (" << pures << "), cut " << cut / cuts << " us (" << cuts
-            << ")\n";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sculpt/mesh/edge_walk.hpp"
 #include "sculpt/par/components.hpp"
 
 namespace sculpt {
@@ -80,7 +81,7 @@ class ExteriorFinder {
           facet.corner[v] = cells_.position[at(nodes.node[v])];
           facet.node[v] = cells_.node_id[at(nodes.node[v])];
         }
-        facet.kept = other != kNone;
+        facet.kept = facet.whole = other != kNone;
         out_.faces.push_back({c, f, static_cast<LocalId>(facets_.size())});
         out_.facets.push_back(facet);
         facets_.push_back(nodes);
@@ -136,6 +137,22 @@ class ExteriorFinder {
     Components parts = connected_components(comm_, std::move(sets), ids, GhostExchange(comm_, ids, owner));
     surfaces_ = number_components(comm_, parts, ids);
     for (std::size_t f = 0; f < facets_.size(); ++f) out_.facets[f].surface = parts.of[f];
+    find_curved();
+  }
+  void find_curved() {
+    std::vector<std::uint64_t> curved((static_cast<std::size_t>(surfaces_) + 63) / 64, 0);
+    const auto mark = [&](const Facet& f) {
+      const auto s = static_cast<std::size_t>(f.surface);
+      curved[s / 64] |= std::uint64_t{1} << (s % 64);
+    };
+    for (const Facet& f : out_.facets)
+      if (!is_flat(f)) mark(f);
+    for_each_edge([&](std::span<const FacetEdge> edge) {
+      if (!is_feature(edge) && !coplanar(facet(edge[0]), facet(edge[1]))) mark(facet(edge[0]));
+    });
+    comm_.bit_or(curved);
+    for (std::size_t s = 0; s < static_cast<std::size_t>(surfaces_); ++s)
+      out_.curved.push_back(static_cast<std::uint8_t>(curved[s / 64] >> (s % 64) & 1));
   }
 
   // Bits for surfaces, such that two with a node in common differ, as long as there are enough.
@@ -227,6 +244,23 @@ class ExteriorFinder {
 };
 
 }  // namespace
+
+void keep_curved_whole(const Comm& comm, Exterior& exterior, const HexMesh& cells, const Interfaces& faces) {
+  if (exterior.slides) return;
+  std::vector<std::uint64_t> met((exterior.curved.size() + 63) / 64, 0);
+  for (const ExteriorFace& f : exterior.faces) {
+    const std::int32_t surface = exterior.facets[at(f.facet)].surface;
+    const auto s = static_cast<std::size_t>(surface);
+    if (exterior.curved[s] == 0) continue;
+    for (const LocalId n : face_nodes(cells, {f.hex, f.face}))
+      if (faces.index_of[at(n)] != kNone) met[s / 64] |= std::uint64_t{1} << (s % 64);
+  }
+  comm.bit_or(met);
+  for (Facet& f : exterior.facets) {
+    const auto s = static_cast<std::size_t>(f.surface);
+    if ((met[s / 64] >> (s % 64) & 1) != 0) f.whole = 1;
+  }
+}
 
 void find_exterior(const Comm& comm, HexMesh& cells, const FaceNeighbours& neighbours,
                    std::span<const std::uint8_t> kept, const ExteriorOptions& options) {

@@ -87,7 +87,7 @@ class Pillower {
     if (mesh_.exterior.empty()) return (rules_.box_sides & face_sides(mesh_, face.hex, face.face)) != 0;
     const LocalId facet = mesh_.exterior.facet_at(face.hex, face.face);
     if (facet == kNone) return false;
-    return rules_.box_sides != 0 || mesh_.exterior.facets[at(facet)].kept != 0;
+    return rules_.box_sides != 0 || mesh_.exterior.facets[at(facet)].whole != 0;
   }
 
   void add_node(LocalId from, GlobalId copy, const Vec3& position, std::uint8_t sides) {
@@ -115,6 +115,7 @@ class Pillower {
       result_.mesh.exterior.facets = mesh_.exterior.facets;
       result_.mesh.exterior.holds = mesh_.exterior.holds;
       result_.mesh.exterior.patch = mesh_.exterior.patch;
+      result_.mesh.exterior.curved = mesh_.exterior.curved;
       result_.mesh.exterior.slides = mesh_.exterior.slides;
     }
     corner_.resize(mesh_.hexes.size());
@@ -129,34 +130,40 @@ class Pillower {
       if (!on_boundary_[at(n)]) continue;
       copy_node(n, items);
       if (rules_.box_sides == 0 && mesh_.box_sides[at(n)] != 0) {
-        const std::uint8_t left = sides_left(n, items);
+        const auto left =
+            static_cast<std::uint8_t>(sides_of_layers(items) | sides_of_hexes(n, items));
         result_.mesh.box_sides[at(first_[at(n)])] = left;
-        if (left == 0) leave_exterior(n, items);
+        if (!mesh_.exterior.empty() && left != mesh_.box_sides[at(n)]) leave_exterior(n, items, left);
       }
     }
   }
 
-  // The sides of the box on which an old node still has a face: those where the faces at it now have
-  // different nodes. In refined meshes a hex may touch the box in an edge only; the layers
-  // around it close over the edge, and its nodes lie inside then.
-  [[nodiscard]] std::uint8_t sides_left(LocalId node, std::span<const std::int32_t> items) const {
-    std::array<LocalId, 8> taken;
-    taken.fill(kNone);
-    unsigned left = 0;
+  // The sides of the domain on which an old node has a face of a new hex: on a wrapped side, or where a wrapped
+  // face meets the side in an edge at the node. In meshes that are no lattice a hex may touch a side in an edge
+  // or a node only; the layers around it close over that, and the node lies inside then.
+  [[nodiscard]] std::uint8_t sides_of_layers(std::span<const std::int32_t> items) const {
+    unsigned sides = 0;
     for (const std::int32_t item : items) {
-      const LocalId h = item / 8, corner = corner_[at(h)][static_cast<std::size_t>(item % 8)];
-      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
-        if (neighbours_[at(h)][static_cast<std::size_t>(f)] != kNone) continue;
-        if (wrapped(h, f)) left |= face_sides(mesh_, h, f);
-        for (std::size_t side = 0; side < taken.size(); ++side) {
-          if (!(face_sides(mesh_, h, f) >> side & 1)) continue;
-          const bool stays = corner == first_[at(node)];
-          if (stays || (taken[side] != kNone && taken[side] != corner)) left |= 1U << side;
-          taken[side] = corner;
-        }
-      }
+      const LocalId h = item / 8;
+      const auto& at_corner = kCornerFaces[static_cast<std::size_t>(item % 8)];
+      const bool at_layer =
+          std::any_of(at_corner.begin(), at_corner.end(), [&](int g) { return wrapped(h, g); });
+      for (const int f : at_corner)
+        if (at_layer && neighbours_[at(h)][static_cast<std::size_t>(f)] == kNone)
+          sides |= face_sides(mesh_, h, f);
     }
-    return static_cast<std::uint8_t>(left);
+    return static_cast<std::uint8_t>(sides);
+  }
+  // Those on which it has a face of an old hex that did not take a copy.
+  [[nodiscard]] std::uint8_t sides_of_hexes(LocalId node, std::span<const std::int32_t> items) const {
+    unsigned sides = 0;
+    for (const std::int32_t item : items) {
+      const LocalId h = item / 8;
+      if (corner_[at(h)][static_cast<std::size_t>(item % 8)] != first_[at(node)]) continue;
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)])
+        if (neighbours_[at(h)][static_cast<std::size_t>(f)] == kNone) sides |= face_sides(mesh_, h, f);
+    }
+    return static_cast<std::uint8_t>(sides);
   }
 
   // One copy for every face-connected group of equally labelled hexes at the node that has a wrapped face
@@ -244,7 +251,7 @@ class Pillower {
     exterior.hold_of.back() = kNone;
     if (pieces_.empty()) return;
     add_pieces(node, items, all_pieces_);
-    if (all_pieces_.size() == pieces_.size() && !at_kept_face(items)) {  // it takes the place of the node
+    if (all_pieces_.size() == pieces_.size() && sides_of_layers(items) == 0) {  // it takes the node's place
       exterior.hold_of.back() = mesh_.exterior.hold_of[at(node)];
       result_.mesh.position.back() = p;
       return;
@@ -265,14 +272,6 @@ class Pillower {
       q = exterior.nearest(hold, p + (0.5 * rules_.offset) * (there - p));
     }
     result_.mesh.position.back() = q;
-  }
-  // Whether the old node stays on a wrapped face of the boundary.
-  [[nodiscard]] bool at_kept_face(std::span<const std::int32_t> items) const {
-    for (const std::int32_t item : items)
-      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)])
-        if (neighbours_[at(item / 8)][static_cast<std::size_t>(f)] == kNone && wrapped(item / 8, f))
-          return true;
-    return false;
   }
   LocalId hold_for_pieces() {
     Exterior& exterior = result_.mesh.exterior;
@@ -303,12 +302,25 @@ class Pillower {
         pieces_[middle].facet == pieces_[middle + 1].facet || coplanar(facet(middle), facet(middle + 1));
     return level ? on_surface(middle, middle + 2) : on_edge(middle);
   }
-  // An old node whose faces on the exterior went to a copy goes inside, towards the hexes that keep it.
-  void leave_exterior(LocalId node, std::span<const std::int32_t> items) {
-    if (mesh_.exterior.empty()) return;
+  // An old node whose faces on some surfaces went to a copy keeps to the others; without any it goes inside,
+  // towards the hexes that keep it.
+  void leave_exterior(LocalId node, std::span<const std::int32_t> items, std::uint8_t left) {
     const LocalId old = first_[at(node)];
-    if (mesh_.exterior.hold_of[at(node)] == kNone) return;
-    result_.mesh.exterior.hold_of[at(old)] = kNone;
+    LocalId& hold = result_.mesh.exterior.hold_of[at(old)];
+    if (hold == kNone || mesh_.exterior.holds[at(hold)].kind == Hold::Kind::kPoint) return;
+    if (left != 0) {
+      patch_.clear();
+      for (const std::int32_t item : items)
+        for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
+          const LocalId facet = mesh_.exterior.facet_at(item / 8, f);
+          if (facet != kNone && (face_sides(mesh_, item / 8, f) & left) != 0) patch_.push_back(facet);
+        }
+      std::sort(patch_.begin(), patch_.end());
+      patch_.erase(std::unique(patch_.begin(), patch_.end()), patch_.end());
+      if (!patch_.empty()) hold = result_.mesh.exterior.add_surface(patch_);
+      return;
+    }
+    hold = kNone;
     const auto keeps = [&](std::int32_t item) {
       return corner_[at(item / 8)][static_cast<std::size_t>(item % 8)] == old;
     };

@@ -19,6 +19,7 @@
 #include "pipeline/periodicity.hpp"
 #include "sculpt/base/fixed_point.hpp"
 #include "sculpt/brep/brep.hpp"
+#include "sculpt/brep/exterior.hpp"
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/contour.hpp"
 #include "sculpt/contour/interface_smoothing.hpp"
@@ -253,6 +254,7 @@ Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contou
                     const Log& log, Stages& stages) {
   InterfaceTrack track = interface_track(overlay.cells, shape.faces, shape.placed);
   const LayerPlan plan = layer_plan(deck);
+  keep_curved_whole(comm, overlay.cells.exterior, overlay.cells, shape.faces);
   const bool held = holds_interfaces(deck);
   HexMesh contoured = held ? overlay.cells : HexMesh{};
   LayeredMesh layered = add_layers(comm, std::move(overlay.cells), std::move(overlay.neighbours), drop,

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 
+#include "sculpt/brep/interfaces.hpp"
 #include "sculpt/mesh/adjacency.hpp"
 #include "sculpt/mesh/hex_mesh.hpp"
 #include "sculpt/par/comm.hpp"
@@ -27,5 +28,9 @@ struct ExteriorOptions {
 // towards it become facets. May be empty. The cells need two ghost layers.
 void find_exterior(const Comm& comm, HexMesh& cells, const FaceNeighbours& neighbours,
                    std::span<const std::uint8_t> kept, const ExteriorOptions& options);
+
+// Collective. Where nodes may not slide across its edges, a curved surface keeps its shape only if its facets
+// stay whole: marks those of the surfaces that interfaces meet. `exterior` is that of the cells.
+void keep_curved_whole(const Comm& comm, Exterior& exterior, const HexMesh& cells, const Interfaces& faces);
 
 }  // namespace sculpt

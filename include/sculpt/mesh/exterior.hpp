@@ -19,6 +19,7 @@ struct Facet {
   std::array<GlobalId, 4> node{};  // ids of the corners in the overlay mesh
   std::int32_t surface = 0;        // the same on all ranks
   std::uint8_t kept = 0;           // 1: beyond it lie cells that stay as they are (input_mesh_blocks)
+  std::uint8_t whole = 0;          // 1: must stay one face of a hex
 };
 
 // Where a node of the boundary may go.
@@ -42,6 +43,7 @@ struct Exterior {
   std::vector<LocalId> hold_of;     // per node: index into holds, kNone: moves freely
   std::vector<Hold> holds;
   std::vector<LocalId> patch;  // facets of the holds
+  std::vector<std::uint8_t> curved;  // per surface: 1 = it does not lie in one plane; the same on all ranks
   bool slides = false;         // nodes may slide across the edges between facets of one surface
 
   [[nodiscard]] bool empty() const { return hold_of.empty(); }
@@ -49,7 +51,8 @@ struct Exterior {
   // Adds a hold on these facets; its index.
   LocalId add_surface(std::span<const LocalId> on);
   LocalId add_line(const std::array<Vec3, 3>& line);
-  [[nodiscard]] Vec3 nearest(LocalId hold, const Vec3& p) const;  // the point of the hold nearest to p
+  // The point of a line or surface nearest to p.
+  [[nodiscard]] Vec3 nearest(LocalId hold, const Vec3& p) const;
   // Unit vector along a line at p, or across a surface there.
   [[nodiscard]] Vec3 direction(LocalId hold, const Vec3& p) const;
 };

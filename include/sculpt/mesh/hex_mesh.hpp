@@ -129,7 +129,9 @@ struct HexMesh {
 [[nodiscard]] inline Vec3 held(const HexMesh& mesh, LocalId node, const Vec3& from, const Vec3& move) {
   if (mesh.exterior.empty()) return held_on_box(move, mesh.box_sides[at(node)]);
   const LocalId hold = mesh.exterior.hold_of[at(node)];
-  return hold == kNone ? move : mesh.exterior.nearest(hold, from + move) - from;
+  if (hold == kNone) return move;
+  if (mesh.exterior.holds[at(hold)].kind == Hold::Kind::kPoint) return {};
+  return mesh.exterior.nearest(hold, from + move) - from;
 }
 
 // Local. The directions in which a node at p may begin to move.

@@ -37,8 +37,8 @@ struct Pillowed {
 // Collective. neighbours: of the mesh; label: per hex the set it belongs to, below 0 = none; drop: per hex,
 // not part of the result (the sets see it all the same); may be empty. Every hex of a set receives one new
 // hex on each face towards a hex outside its set and on each face on one of rules.box_sides; other faces
-// without a neighbour receive none: the layers end there. Facets towards cells that
-// stay as they are (Facet::kept) are wrapped as well, so that they are not cut. The new hexes lie between copies of the old nodes,
+// without a neighbour receive none: the layers end there. Facets that must not
+// be cut (Facet::whole) are wrapped as well. The new hexes lie between copies of the old nodes,
 // moved towards the inside, and the old nodes, which stay. A copy stays on the sides of the box on which the
 // hexes that take it keep a face, and on the interfaces that run through their set. Uses up one ghost layer
 // of the old mesh.

@@ -17,7 +17,8 @@ namespace sculpt {
 //   - two exterior faces look at each other and share opposite corners, so that they are one face but for the
 //     others.
 // What comes first in this list is reported, of that the smallest numbers. block_ids: by which the message
-// names the blocks of elements; empty: not named.
+// names the blocks of elements; empty: not named. Quick where neighbours are mostly on one rank
+// (repartition).
 void check_conformity(const Comm& comm, const ElementShare& share,
                       const std::vector<std::int64_t>& block_ids = {});
 

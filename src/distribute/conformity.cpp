@@ -138,16 +138,21 @@ class Conformity {
       auto& to = out[ranges.rank(key[0])];
       to.insert(to.end(), sides.begin(), sides.end());
     });
-    std::vector<Side> met;
-    for (const auto& from : comm_.all_to_all(out)) met.insert(met.end(), from.begin(), from.end());
-    std::sort(met.begin(), met.end(), [](const Side& a, const Side& b) {
-      return std::pair(sorted(a.nodes), a.element) < std::pair(sorted(b.nodes), b.element);
+    struct Met {
+      FaceNodes key;
+      Side side;
+    };
+    std::vector<Met> met;
+    for (const auto& from : comm_.all_to_all(out))
+      for (const Side& side : from) met.push_back({sorted(side.nodes), side});
+    out = {};
+    std::sort(met.begin(), met.end(), [](const Met& a, const Met& b) {
+      return std::tie(a.key, a.side.element) < std::tie(b.key, b.side.element);
     });
     for (std::size_t i = 0; i < met.size();) {
-      std::size_t j = i + 1;
-      while (j < met.size() && sorted(met[j].nodes) == sorted(met[i].nodes)) ++j;
-      settle(std::span<const Side>(met.data() + i, j - i));
-      i = j;
+      const std::size_t first = i;
+      for (sides.clear(); i < met.size() && met[i].key == met[first].key; ++i) sides.push_back(met[i].side);
+      settle(sides);
     }
     std::vector<ExteriorFace> faces;
     for (const Side& side : exterior) faces.push_back({side.nodes, side.element, side.block, 0, {}});

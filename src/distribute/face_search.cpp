@@ -88,13 +88,14 @@ void compare(const NodeEntry& node, const ExteriorFace& face, double tolerance, 
     const double distance = norm(node.place - face.corner[v]);
     if (distance > tolerance * extent.shortest) continue;
     const double part = distance > 0 ? distance / extent.shortest : 0;
-    touches.push_back({node.node, node.place, face.nodes[v], part, face.element, face.block});
+    const Vec3& place = node.node < face.nodes[v] ? node.place : face.corner[v];
+    touches.push_back({node.node, place, face.nodes[v], part, face.element, face.block});
     return;
   }
   const auto& c = face.corner;
   const double distance = std::min(distance_to_triangle(node.place, c[0], c[1], c[2]),
                                    distance_to_triangle(node.place, c[0], c[2], c[3]));
-  if (distance <= tolerance * extent.longest)
+  if (distance <= tolerance * std::sqrt(extent.shortest * extent.longest))
     touches.push_back({node.node, node.place, -1, distance, face.element, face.block});
 }
 

@@ -19,7 +19,7 @@ struct ExteriorFace {
 
 struct Touch {
   GlobalId node;
-  Vec3 place;
+  Vec3 place;       // of the node, or of the other if its number is smaller
   GlobalId other;   // the node at the same place; -1: the node lies elsewhere in the face
   double distance;  // from it, in units of the shortest edge there, or from the face
   GlobalId element;
@@ -30,7 +30,8 @@ struct Touch {
 [[nodiscard]] double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 // Collective. Nodes that come closer than `tolerance` to the corner of a face that has them not, in units of
-// its shortest edge, or to its inside, in units of its longest. faces: those of all ranks, each on one.
+// its shortest edge, or to its inside, in units of the geometric mean of its shortest and longest. faces:
+// those of all ranks, each on one.
 [[nodiscard]] std::vector<Touch> touching_nodes(const Comm& comm, std::span<const ExteriorFace> faces,
                                                 double tolerance);
 

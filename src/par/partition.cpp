@@ -79,24 +79,51 @@ const char* name_of(PartitionMethod method) {
   return "";
 }
 
+// The ranks that have objects. Zoltan takes a rank without any for one that is out of memory (-2).
+class Holders {
+ public:
+  // Collective.
+  Holders(const Comm& comm, bool has_objects) {
+    MPI_Comm_split(comm.handle(), has_objects ? 0 : MPI_UNDEFINED, comm.rank(), &comm_);
+    std::int32_t next = 0;
+    for (const std::int32_t has : comm.gather_all(std::int32_t{has_objects}))
+      number_.push_back(has != 0 ? next++ : -1);
+  }
+  ~Holders() {
+    if (comm_ != MPI_COMM_NULL) MPI_Comm_free(&comm_);
+  }
+  Holders(const Holders&) = delete;
+  Holders& operator=(const Holders&) = delete;
+
+  [[nodiscard]] MPI_Comm handle() const { return comm_; }
+  [[nodiscard]] std::int32_t number(std::int32_t rank) const {
+    return number_[static_cast<std::size_t>(rank)];
+  }
+
+ private:
+  MPI_Comm comm_ = MPI_COMM_NULL;
+  std::vector<std::int32_t> number_;
+};
+
 class Zoltan {
  public:
-  Zoltan(const Comm& comm, PartitionMethod method, const PartitionObjects& objects) {
+  Zoltan(MPI_Comm comm, int parts, PartitionMethod method, const PartitionObjects& objects) {
     float version = 0;
     if (Zoltan_Initialize(0, nullptr, &version) != ZOLTAN_OK) return;
-    zoltan_ = Zoltan_Create(comm.handle());
+    zoltan_ = Zoltan_Create(comm);
     if (zoltan_ == nullptr) return;
     void* data = const_cast<PartitionObjects*>(&objects);
     good_ = set("DEBUG_LEVEL", "0") && set("LB_METHOD", name_of(method)) && set("LB_APPROACH", "PARTITION") &&
             set("NUM_GID_ENTRIES", kIdEntries) && set("NUM_LID_ENTRIES", "1") &&
             set("RETURN_LISTS", "PARTS") && set("OBJ_WEIGHT_DIM", "0") && set("EDGE_WEIGHT_DIM", "0") &&
-            set("IMBALANCE_TOL", "1.05");
+            set("IMBALANCE_TOL", "1.05") && set("NUM_GLOBAL_PARTS", std::to_string(parts).c_str());
     good_ = good_ && Zoltan_Set_Num_Obj_Fn(zoltan_, count_objects, data) == ZOLTAN_OK &&
             Zoltan_Set_Obj_List_Fn(zoltan_, list_objects, data) == ZOLTAN_OK &&
             Zoltan_Set_Num_Geom_Fn(zoltan_, count_axes, data) == ZOLTAN_OK &&
             Zoltan_Set_Geom_Multi_Fn(zoltan_, list_points, data) == ZOLTAN_OK;
     if (method != PartitionMethod::kGraph) return;
-    good_ = good_ && set("GRAPH_PACKAGE", "SCOTCH") &&
+    // PT-Scotch 7.0 is faster, but crashes or waits for ever on graphs of a few vertices per part.
+    good_ = good_ && set("GRAPH_PACKAGE", "PHG") &&
             Zoltan_Set_Num_Edges_Multi_Fn(zoltan_, count_neighbours, data) == ZOLTAN_OK &&
             Zoltan_Set_Edge_List_Multi_Fn(zoltan_, list_neighbours, data) == ZOLTAN_OK;
   }
@@ -108,7 +135,7 @@ class Zoltan {
 
   [[nodiscard]] bool good() const { return good_; }
 
-  // Collective. False when Zoltan fails here.
+  // Collective over the ranks with objects. False when Zoltan fails here.
   [[nodiscard]] bool run(std::vector<std::int32_t>& part) {
     int changes = 0, id_entries = 0, local_entries = 0, imports = 0, exports = 0;
     ZOLTAN_ID_PTR import_ids = nullptr, import_local = nullptr, export_ids = nullptr, export_local = nullptr;
@@ -147,10 +174,16 @@ std::vector<std::int32_t> partition(const Comm& comm, PartitionMethod method,
   });
   std::vector<std::int32_t> part(objects.id.size(), 0);
   if (comm.size() == 1) return part;
-  if (comm.sum(static_cast<std::int64_t>(part.size())) == 0) return part;
-  Zoltan zoltan(comm, method, objects);
-  bool good = comm.min(std::int64_t{zoltan.good()}) != 0;
-  if (good) good = comm.min(std::int64_t{zoltan.run(part)}) != 0;
+  const Holders holders(comm, !part.empty());
+  bool good = true;
+  if (!part.empty()) {
+    std::vector<std::int32_t> neighbour_rank;
+    for (const std::int32_t rank : objects.neighbour_rank) neighbour_rank.push_back(holders.number(rank));
+    PartitionObjects there = objects;
+    there.neighbour_rank = neighbour_rank;
+    Zoltan zoltan(holders.handle(), comm.size(), method, there);
+    good = zoltan.good() && zoltan.run(part);
+  }
   for (const std::int32_t p : part) good = good && p >= 0 && p < comm.size();
   if (comm.min(std::int64_t{good}) == 0)
     throw AgreedError(fmt::format(

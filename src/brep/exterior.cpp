@@ -245,20 +245,41 @@ class ExteriorFinder {
 
 }  // namespace
 
-void keep_curved_whole(const Comm& comm, Exterior& exterior, const HexMesh& cells, const Interfaces& faces) {
-  if (exterior.slides) return;
-  std::vector<std::uint64_t> met((exterior.curved.size() + 63) / 64, 0);
+void keep_whole(const Comm& comm, Exterior& exterior, const HexMesh& cells, const Interfaces& faces) {
+  std::vector<std::uint64_t> whole((exterior.curved.size() + 63) / 64, 0);
+  const auto mark = [&](std::int32_t surface) {
+    const auto s = static_cast<std::size_t>(surface);
+    whole[s / 64] |= std::uint64_t{1} << (s % 64);
+  };
+  struct Edge {
+    LocalId a, b;
+    std::int32_t surface;
+    auto operator<=>(const Edge&) const = default;
+  };
+  std::vector<Edge> edges;  // of the exterior, between interface nodes
   for (const ExteriorFace& f : exterior.faces) {
     const std::int32_t surface = exterior.facets[at(f.facet)].surface;
-    const auto s = static_cast<std::size_t>(surface);
-    if (exterior.curved[s] == 0) continue;
-    for (const LocalId n : face_nodes(cells, {f.hex, f.face}))
-      if (faces.index_of[at(n)] != kNone) met[s / 64] |= std::uint64_t{1} << (s % 64);
+    const auto nodes = face_nodes(cells, {f.hex, f.face});
+    for (std::size_t v = 0; v < 4; ++v) {
+      const LocalId a = std::min(nodes[v], nodes[(v + 1) % 4]), b = std::max(nodes[v], nodes[(v + 1) % 4]);
+      if (faces.index_of[at(a)] == kNone) continue;
+      if (!exterior.slides && exterior.curved[static_cast<std::size_t>(surface)] != 0) mark(surface);
+      const auto beside = faces.neighbours[at(faces.index_of[at(a)])];
+      if (std::binary_search(beside.begin(), beside.end(), faces.index_of[at(b)]))
+        edges.push_back({a, b, surface});
+    }
   }
-  comm.bit_or(met);
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
+    const Edge &one = edges[e], &two = edges[e + 1];
+    if (one.a != two.a || one.b != two.b || one.surface == two.surface) continue;
+    mark(one.surface);
+    mark(two.surface);
+  }
+  comm.bit_or(whole);
   for (Facet& f : exterior.facets) {
     const auto s = static_cast<std::size_t>(f.surface);
-    if ((met[s / 64] >> (s % 64) & 1) != 0) f.whole = 1;
+    if ((whole[s / 64] >> (s % 64) & 1) != 0) f.whole = 1;
   }
 }
 

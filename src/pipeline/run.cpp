@@ -254,7 +254,7 @@ Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contou
                     const Log& log, Stages& stages) {
   InterfaceTrack track = interface_track(overlay.cells, shape.faces, shape.placed);
   const LayerPlan plan = layer_plan(deck);
-  keep_curved_whole(comm, overlay.cells.exterior, overlay.cells, shape.faces);
+  keep_whole(comm, overlay.cells.exterior, overlay.cells, shape.faces);
   const bool held = holds_interfaces(deck);
   HexMesh contoured = held ? overlay.cells : HexMesh{};
   LayeredMesh layered = add_layers(comm, std::move(overlay.cells), std::move(overlay.neighbours), drop,

@@ -29,8 +29,10 @@ struct ExteriorOptions {
 void find_exterior(const Comm& comm, HexMesh& cells, const FaceNeighbours& neighbours,
                    std::span<const std::uint8_t> kept, const ExteriorOptions& options);
 
-// Collective. Where nodes may not slide across its edges, a curved surface keeps its shape only if its facets
-// stay whole: marks those of the surfaces that interfaces meet. `exterior` is that of the cells.
-void keep_curved_whole(const Comm& comm, Exterior& exterior, const HexMesh& cells, const Interfaces& faces);
+// Collective. Marks the facets that must stay whole, surface by surface: those of curved surfaces that interfaces
+// meet, which otherwise would not keep their shape (where nodes may slide across the edges they need not); and
+// those of surfaces at whose edges an interface runs along the edge, since no copy of a node could both keep
+// to the edge and leave room for the layers. `exterior` is that of the cells.
+void keep_whole(const Comm& comm, Exterior& exterior, const HexMesh& cells, const Interfaces& faces);
 
 }  // namespace sculpt

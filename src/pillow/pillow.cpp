@@ -14,6 +14,7 @@ namespace {
 constexpr GlobalId kNodeFactor = 64;
 constexpr GlobalId kBoxNodeFactor = 2;  // a wrap of the box copies a node once
 constexpr int kBottom = 4, kTop = 5;    // faces of a new hex: towards the old hex, where the old face was
+constexpr double kLongEdge = 2;         // in the shortest edges at a node: longer ones count as this long
 constexpr double kLeastOfWay = 0.25;    // what is left of the way of a copy when it is put on the exterior
 constexpr std::int32_t kOutside = -1;   // stands for the material of what is not meshed
 
@@ -358,7 +359,7 @@ class Pillower {
   Vec3 inwards(LocalId node, LocalId copy) {
     const Vec3 p = mesh_.position[at(node)];
     find_interface(node);
-    if (through_.faces == 0) return rules_.along_edges ? way_along_edges(node) : middle_of_group() - p;
+    if (through_.faces == 0) return rules_.along_edges ? way_along_edges(node) : way_into_group(node);
     if (!through_curve()) {
       result_.on_interface.push_back({copy, false, unit(through_.normal)});
       return way_along_edges(node);
@@ -379,6 +380,22 @@ class Pillower {
     return (0.5 / static_cast<double>(ends.size())) * sum;
   }
 
+  // Hexes of an input mesh may be much longer than wide. Towards their middle the copy would be so far ahead of
+  // the node along a face that the layer there is sheared: long edges count as short ones.
+  [[nodiscard]] Vec3 way_into_group(LocalId node) const {
+    if (mesh_.exterior.empty()) return middle_of_group() - mesh_.position[at(node)];
+    const double longest = kLongEdge * mesh_.unit(node) * mesh_.cell_size.x;
+    Vec3 sum;
+    for (const std::int32_t item : group_) {
+      const Hex& hex = mesh_.hexes[at(item / 8)];
+      for (const int c : kCornerNeighbours[static_cast<std::size_t>(item % 8)]) {
+        const Vec3 edge = mesh_.position[at(hex[static_cast<std::size_t>(c)])] - mesh_.position[at(node)];
+        const double length = norm(edge);
+        sum += length > longest ? (longest / length) * edge : edge;
+      }
+    }
+    return (0.5 / static_cast<double>(group_.size())) * sum;
+  }
   [[nodiscard]] Vec3 middle_of_group() const {
     Vec3 sum;
     for (const std::int32_t item : group_)

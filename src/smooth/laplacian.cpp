@@ -1,7 +1,11 @@
 #include "smooth/laplacian.hpp"
 
+#include <limits>
+
 namespace sculpt {
 namespace {
+
+constexpr double kFar = 2;  // in the shortest edges at a node of the overlay mesh
 
 // Marks the nodes of all hexes that have a marked node.
 void mark_layer(const HexMesh& mesh, const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to) {
@@ -32,17 +36,21 @@ std::vector<LocalId> nodes_near_interfaces(const HexMesh& mesh, const Geometry& 
 
 Vec3 towards_neighbours(const HexMesh& mesh, const NodeHexes& around, LocalId node) {
   const std::uint8_t sides = mesh.box_sides[at(node)];
+  const Vec3& here = mesh.position[at(node)];
+  // Hexes of an input mesh may be much longer than wide: there far neighbours count less.
+  const double far = mesh.exterior.empty() ? std::numeric_limits<double>::infinity()
+                                           : kFar * mesh.unit(node) * mesh.cell_size.x;
   Vec3 sum;
-  int count = 0;
+  double count = 0;
   for (const std::int32_t item : around[node])
     for (const int c : kCornerNeighbours[static_cast<std::size_t>(item % 8)]) {
       const LocalId other = mesh.hexes[at(item / 8)][static_cast<std::size_t>(c)];
       if ((mesh.box_sides[at(other)] & sides) != sides) continue;
-      sum += mesh.position[at(other)];
-      ++count;
+      const double length = norm(mesh.position[at(other)] - here), weight = length > far ? far / length : 1;
+      sum += weight * mesh.position[at(other)];
+      count += weight;
     }
-  if (count == 0) return {};
-  const Vec3& here = mesh.position[at(node)];
+  if (!(count > 0)) return {};
   return held(mesh, node, here, (1.0 / count) * sum - here);
 }
 

@@ -10,9 +10,10 @@
 namespace sculpt {
 namespace {
 
-constexpr double kStraight = 1e-9;  // sine of the angle between two edges that count as one line
-constexpr double kTurn = 45;        // degrees: a curve that turns by more has a vertex there (when sliding)
-constexpr int kSides = 8;           // bits of box_sides
+constexpr double kStraight = 1e-9;    // sine of the angle between two edges that count as one line
+constexpr double kTurn = 45;          // degrees: a curve that turns by more has a vertex there (when sliding)
+constexpr int kSides = 8;             // bits of box_sides
+constexpr std::int32_t kInside = -1;  // stands for the surface of a facet that is not on the boundary
 
 // A face of the mesh that is a facet, and an edge of one.
 struct FacetNodes {
@@ -44,7 +45,35 @@ class ExteriorFinder {
     find_edges();
     find_surfaces();
     number_sides();
-    hold_nodes();
+    out_.holds.push_back({});  // the one of all nodes that do not move
+    out_.hold_of.assign(cells_.position.size(), kNone);
+    hold_nodes([](LocalId) { return true; });
+    cells_.exterior = std::move(out_);
+  }
+
+  // Holds anew the nodes of faces between cells that is_held picks.
+  void hold_inside(const std::function<bool(LocalId cell, LocalId other)>& is_held) {
+    out_ = std::move(cells_.exterior);
+    find_complete_nodes();
+    for (const ExteriorFace& f : out_.faces) {
+      FacetNodes nodes = nodes_of(f.hex, f.face, 0);
+      if (at(f.facet) >= facets_.size()) facets_.resize(at(f.facet) + 1);
+      facets_[at(f.facet)] = nodes;
+    }
+    const std::size_t outside = facets_.size();
+    check(outside == out_.facets.size(), "every facet has its face");
+    for (LocalId c = 0; c < cells_.size(); ++c)
+      for (int f = 0; f < 6; ++f) {
+        const LocalId other = neighbours_[at(c)][static_cast<std::size_t>(f)];
+        if (other > c && is_held(c, other))
+          add_facet(nodes_of(c, f, std::int64_t{cells_.material[at(c)]} << 32 | cells_.material[at(other)]),
+                    true);
+      }
+    find_edges();
+    std::vector<std::uint8_t> again(cells_.position.size(), 0);
+    for (std::size_t f = outside; f < facets_.size(); ++f)
+      for (const LocalId n : facets_[f].node) again[at(n)] = 1;
+    hold_nodes([&](LocalId n) { return again[at(n)] != 0; });
     cells_.exterior = std::move(out_);
   }
 
@@ -66,27 +95,32 @@ class ExteriorFinder {
       for (int f = 0; f < 6; ++f) {
         const LocalId other = neighbours_[at(c)][static_cast<std::size_t>(f)];
         if (other != kNone && !kept(other)) continue;
-        FacetNodes nodes{c, f, {}, options_.label ? options_.label(c, f) : 0};
-        bool known = false;
-        for (std::size_t v = 0; v < 4; ++v) {
-          nodes.node[v] =
-              cells_.hexes[at(c)][static_cast<std::size_t>(kFaces[static_cast<std::size_t>(f)][v])];
-          known = known || complete_[at(nodes.node[v])] != 0;
-        }
-        if (!known) continue;
-        std::rotate(nodes.node.begin(), std::min_element(nodes.node.begin(), nodes.node.end()),
-                    nodes.node.end());
-        Facet facet;
-        for (std::size_t v = 0; v < 4; ++v) {
-          facet.corner[v] = cells_.position[at(nodes.node[v])];
-          facet.node[v] = cells_.node_id[at(nodes.node[v])];
-        }
+        const FacetNodes nodes = nodes_of(c, f, options_.label ? options_.label(c, f) : 0);
+        if (!add_facet(nodes)) continue;
+        Facet& facet = out_.facets.back();
         facet.kept = facet.whole = other != kNone;
-        out_.faces.push_back({c, f, static_cast<LocalId>(facets_.size())});
-        out_.facets.push_back(facet);
-        facets_.push_back(nodes);
+        out_.faces.push_back({c, f, static_cast<LocalId>(facets_.size()) - 1});
       }
     }
+  }
+  [[nodiscard]] FacetNodes nodes_of(LocalId cell, int face, std::int64_t label) const {
+    FacetNodes nodes{cell, face, face_nodes(cells_, {cell, face}), label};
+    std::rotate(nodes.node.begin(), std::min_element(nodes.node.begin(), nodes.node.end()), nodes.node.end());
+    return nodes;
+  }
+  // Nothing happens, and the answer is false, when no node of the face is complete.
+  bool add_facet(const FacetNodes& nodes, bool inside = false) {
+    if (std::none_of(nodes.node.begin(), nodes.node.end(), [&](LocalId n) { return complete_[at(n)] != 0; }))
+      return false;
+    Facet facet;
+    for (std::size_t v = 0; v < 4; ++v) {
+      facet.corner[v] = cells_.position[at(nodes.node[v])];
+      facet.node[v] = cells_.node_id[at(nodes.node[v])];
+    }
+    facet.surface = inside ? kInside : 0;
+    out_.facets.push_back(facet);
+    facets_.push_back(nodes);
+    return true;
   }
 
   void find_edges() {
@@ -114,7 +148,8 @@ class ExteriorFinder {
   [[nodiscard]] bool is_feature(std::span<const FacetEdge> edge) const {
     if (edge.size() != 2) return true;
     const Facet &f = facet(edge[0]), &g = facet(edge[1]);
-    return f.kept != g.kept || facets_[at(edge[0].facet)].label != facets_[at(edge[1].facet)].label ||
+    return f.surface != g.surface || f.kept != g.kept ||
+           facets_[at(edge[0].facet)].label != facets_[at(edge[1].facet)].label ||
            dot(facet_normal(f), facet_normal(g)) < least_cosine_;
   }
   // Whether a node that leaves the edge changes the shape.
@@ -194,7 +229,8 @@ class ExteriorFinder {
     cells_.node_exchange.copy_to_ghosts(cells_.box_sides);
   }
 
-  void hold_nodes() {
+  template <class Wanted>
+  void hold_nodes(const Wanted& wanted) {
     std::vector<std::vector<LocalId>> facets_at(cells_.position.size());
     for (std::size_t f = 0; f < facets_.size(); ++f)
       for (const LocalId n : facets_[f].node) facets_at[at(n)].push_back(static_cast<LocalId>(f));
@@ -208,9 +244,8 @@ class ExteriorFinder {
     for (LocalId c = 0; c < cells_.size(); ++c)
       if (kept(c))
         for (const LocalId n : cells_.hexes[at(c)]) fixed[at(n)] = 1;
-    out_.holds.push_back({});  // the one of all nodes that do not move
-    out_.hold_of.assign(cells_.position.size(), kNone);
     for (LocalId n = 0; n < cells_.nodes(); ++n) {
+      if (!wanted(n) || out_.hold_of[at(n)] == 0) continue;
       if (fixed[at(n)])
         out_.hold_of[at(n)] = 0;
       else if (!facets_at[at(n)].empty())
@@ -218,9 +253,8 @@ class ExteriorFinder {
     }
   }
   LocalId hold_for(LocalId n, const std::vector<LocalId>& on, const std::vector<LocalId>& creases) {
-    const bool flat = options_.slides || std::all_of(on.begin(), on.end(), [&](LocalId f) {
-                        return is_flat(out_.facets[at(f)]);
-                      });
+    const bool flat = options_.slides || std::all_of(on.begin(), on.end(),
+                                                     [&](LocalId f) { return is_flat(out_.facets[at(f)]); });
     if (creases.empty()) return flat ? out_.add_surface(on) : 0;
     if (creases.size() != 2) return 0;
     const std::array<Vec3, 3> line{cells_.position[at(creases[0])], cells_.position[at(n)],
@@ -244,6 +278,13 @@ class ExteriorFinder {
 };
 
 }  // namespace
+
+void hold_inside(const Comm& comm, HexMesh& cells, const FaceNeighbours& neighbours, bool slides,
+                 const std::function<bool(LocalId cell, LocalId other)>& is_held) {
+  ExteriorOptions options;
+  options.slides = slides;
+  ExteriorFinder(comm, cells, neighbours, {}, options).hold_inside(is_held);
+}
 
 void keep_whole(const Comm& comm, Exterior& exterior, const HexMesh& cells, const Interfaces& faces) {
   std::vector<std::uint64_t> whole((exterior.curved.size() + 63) / 64, 0);

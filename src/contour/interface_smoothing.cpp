@@ -56,8 +56,7 @@ class Smoother {
     for (const LocalId i : owned_) {
       Vec3& p = moved_[at(i)];
       p += held_at(i, p, factor * wish(at(i), false));
-      if (faces_.kind[at(i)] == NodeClass::kSurface)
-        p += held_at(i, p, onto_quadric(quadric_at(i), p) - p);
+      if (faces_.kind[at(i)] == NodeClass::kSurface) p += held_at(i, p, onto_quadric(quadric_at(i), p) - p);
     }
     x_.swap(moved_);
     share_positions(mesh_, exchange_, faces_.nodes, x_);

@@ -150,10 +150,11 @@ constexpr OptionSpec kOverlayOptions[] = {
      .group = kV,
      .slot = &Deck::input_mesh,
      .help = "Hex mesh used as grid",
-     .about = "Any Exodus hex mesh as base grid: one or many blocks, structured or not. Materials come from a "
-              "geometry source (input_spn, diatom_file) or from the element variables of the mesh, one volume "
-              "fraction per material. With several processes the files <name>.<processes>.<rank> of decomp are "
-              "used when they exist; otherwise the mesh is partitioned (input_mesh_partition).",
+     .about =
+         "Any Exodus hex mesh as base grid: one or many blocks, structured or not. Materials come from a "
+         "geometry source (input_spn, diatom_file) or from the element variables of the mesh, one volume "
+         "fraction per material. With several processes the files <name>.<processes>.<rank> of decomp are "
+         "used when they exist; otherwise the mesh is partitioned (input_mesh_partition).",
      .supported = true,
      .unset = "none",
      .argument = "file name"},
@@ -162,8 +163,9 @@ constexpr OptionSpec kOverlayOptions[] = {
      .group = kV,
      .slot = &Deck::input_mesh_blocks,
      .help = "Blocks of the input mesh to fill",
-     .about = "Only these blocks receive the microstructure. The others stay as they are, element by element, "
-              "and the rest of the mesh conforms with them.",
+     .about =
+         "Only these blocks receive the microstructure. The others stay as they are, element by element, "
+         "and the rest of the mesh conforms with them.",
      .supported = true,
      .lo = 0,
      .hi = kMaxId,
@@ -194,8 +196,9 @@ constexpr OptionSpec kOverlayOptions[] = {
      .group = kV,
      .slot = &Deck::input_mesh_partition,
      .help = "How an input mesh is spread over the processes",
-     .about = "Recursive coordinate or inertial bisection, a Hilbert curve, or the graph of the elements (all by "
-              "Zoltan). The result does not depend on it. An option of this program.",
+     .about =
+         "Recursive coordinate or inertial bisection, a Hilbert curve, or the graph of the elements (all by "
+         "Zoltan). The result does not depend on it. An option of this program.",
      .supported = true,
      .values = kPartitions},
     {.name = "feature_angle",
@@ -203,8 +206,9 @@ constexpr OptionSpec kOverlayOptions[] = {
      .group = kV,
      .slot = &Deck::feature_angle,
      .help = "Angle below which an edge of an input mesh is a feature",
-     .about = "Degrees, measured inside. Where boundary faces meet at less (or at more than 360 minus it) one "
-              "surface ends and another begins. An option of this program.",
+     .about =
+         "Degrees, measured inside. Where boundary faces meet at less (or at more than 360 minus it) one "
+         "surface ends and another begins. An option of this program.",
      .supported = true,
      .lo = 0,
      .hi = 180},
@@ -213,9 +217,10 @@ constexpr OptionSpec kOverlayOptions[] = {
      .group = kV,
      .slot = &Deck::exterior_sliding,
      .help = "Where boundary nodes of an input mesh may move",
-     .about = "exact: in plane parts of the boundary and along straight edges, which leaves its shape and volume "
-              "as they are. surface: also across the edges between the facets of a curved surface, which gives "
-              "smoother interfaces there but cuts these edges. An option of this program.",
+     .about =
+         "exact: in plane parts of the boundary and along straight edges, which leaves its shape and volume "
+         "as they are. surface: also across the edges between the facets of a curved surface, which gives "
+         "smoother interfaces there but cuts these edges. An option of this program.",
      .supported = true,
      .values = kSlidings},
     {.name = "join_parallel",

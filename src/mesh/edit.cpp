@@ -100,9 +100,8 @@ void join_hexes(const Comm& comm, HexMesh& mesh, HexMesh other, GlobalId node_fa
   }
   next = {0, 0};
   while (next[0] < mesh.size() || next[1] < other.size()) {
-    const bool second =
-        next[0] >= mesh.size() ||
-        (next[1] < other.size() && other.hex_id[at(next[1])] < mesh.hex_id[at(next[0])]);
+    const bool second = next[0] >= mesh.size() ||
+                        (next[1] < other.size() && other.hex_id[at(next[1])] < mesh.hex_id[at(next[0])]);
     const std::size_t m = second ? 1 : 0, h = at(next[m]++);
     if (from[m]->layer[h] > mesh.ghost_layers) continue;
     Hex hex = from[m]->hexes[h];

@@ -26,9 +26,7 @@ double size_of(const Facet& f) {
   return std::sqrt(std::max(square(f.corner[2] - f.corner[0]), square(f.corner[3] - f.corner[1])));
 }
 
-Vec3 middle_of(const Facet& f) {
-  return 0.25 * ((f.corner[0] + f.corner[1]) + (f.corner[2] + f.corner[3]));
-}
+Vec3 middle_of(const Facet& f) { return 0.25 * ((f.corner[0] + f.corner[1]) + (f.corner[2] + f.corner[3])); }
 
 }  // namespace
 
@@ -86,9 +84,10 @@ bool common_edge(const Facet& a, const Facet& b, std::array<Vec3, 2>& ends) {
 }
 
 LocalId Exterior::facet_at(LocalId hex, int face) const {
-  const auto found = std::lower_bound(
-      faces.begin(), faces.end(), std::pair(hex, face),
-      [](const ExteriorFace& f, const std::pair<LocalId, int>& key) { return std::pair(f.hex, f.face) < key; });
+  const auto found = std::lower_bound(faces.begin(), faces.end(), std::pair(hex, face),
+                                      [](const ExteriorFace& f, const std::pair<LocalId, int>& key) {
+                                        return std::pair(f.hex, f.face) < key;
+                                      });
   return found != faces.end() && found->hex == hex && found->face == face ? found->facet : kNone;
 }
 

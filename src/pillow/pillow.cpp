@@ -131,17 +131,16 @@ class Pillower {
       if (!on_boundary_[at(n)]) continue;
       copy_node(n, items);
       if (rules_.box_sides == 0 && mesh_.box_sides[at(n)] != 0) {
-        const auto left =
-            static_cast<std::uint8_t>(sides_of_layers(items) | sides_of_hexes(n, items));
+        const auto left = static_cast<std::uint8_t>(sides_of_layers(items) | sides_of_hexes(n, items));
         result_.mesh.box_sides[at(first_[at(n)])] = left;
         if (!mesh_.exterior.empty() && left != mesh_.box_sides[at(n)]) leave_exterior(n, items, left);
       }
     }
   }
 
-  // The sides of the domain on which an old node has a face of a new hex: on a wrapped side, or where a wrapped
-  // face meets the side in an edge at the node. In meshes that are no lattice a hex may touch a side in an edge
-  // or a node only; the layers around it close over that, and the node lies inside then.
+  // The sides of the domain on which an old node has a face of a new hex: on a wrapped side, or where a
+  // wrapped face meets the side in an edge at the node. In meshes that are no lattice a hex may touch a side
+  // in an edge or a node only; the layers around it close over that, and the node lies inside then.
   [[nodiscard]] std::uint8_t sides_of_layers(std::span<const std::int32_t> items) const {
     unsigned sides = 0;
     for (const std::int32_t item : items) {
@@ -228,7 +227,8 @@ class Pillower {
       return std::find_if(pieces.begin(), pieces.end(),
                           [&](const Piece& q) { return q.previous == p.next; }) != pieces.end();
     };
-    const auto start = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return !follows(p); });
+    const auto start =
+        std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return !follows(p); });
     if (start != pieces.end()) std::iter_swap(pieces.begin(), start);
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
       const auto next = std::find_if(pieces.begin() + static_cast<std::ptrdiff_t>(i) + 1, pieces.end(),
@@ -240,9 +240,9 @@ class Pillower {
   }
 
   // A copy in a mesh with an exterior. It stays on the faces that its group keeps there. Between faces of
-  // different surfaces it keeps to their edge. Where the faces of one surface do not lie in one plane, nothing
-  // that it could do there leaves the shape quite as it is: the middle one of its faces, or the edge between
-  // the two middle ones, does least harm and leaves the angles wide.
+  // different surfaces it keeps to their edge. Where the faces of one surface do not lie in one plane,
+  // nothing that it could do there leaves the shape quite as it is: the middle one of its faces, or the edge
+  // between the two middle ones, does least harm and leaves the angles wide.
   void add_held(LocalId node, std::span<const std::int32_t> items, GlobalId copy, const Vec3& way,
                 std::uint8_t sides) {
     const Vec3& p = mesh_.position[at(node)];
@@ -380,8 +380,8 @@ class Pillower {
     return (0.5 / static_cast<double>(ends.size())) * sum;
   }
 
-  // Hexes of an input mesh may be much longer than wide. Towards their middle the copy would be so far ahead of
-  // the node along a face that the layer there is sheared: long edges count as short ones.
+  // Hexes of an input mesh may be much longer than wide. Towards their middle the copy would be so far ahead
+  // of the node along a face that the layer there is sheared: long edges count as short ones.
   [[nodiscard]] Vec3 way_into_group(LocalId node) const {
     if (mesh_.exterior.empty()) return middle_of_group() - mesh_.position[at(node)];
     const double longest = kLongEdge * mesh_.unit(node) * mesh_.cell_size.x;

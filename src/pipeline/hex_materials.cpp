@@ -97,7 +97,8 @@ class GridOfHexes final : public MaterialSource {
           to[r].push_back({place, f.material[e], f.value[e]});
       }
     std::vector<Entry> mine;
-    for (const std::vector<Entry>& from : comm.all_to_all(to)) mine.insert(mine.end(), from.begin(), from.end());
+    for (const std::vector<Entry>& from : comm.all_to_all(to))
+      mine.insert(mine.end(), from.begin(), from.end());
     std::sort(mine.begin(), mine.end(), [](const Entry& a, const Entry& b) {
       return std::pair(a.place, a.material) < std::pair(b.place, b.material);
     });
@@ -126,8 +127,8 @@ class GridOfHexes final : public MaterialSource {
 }  // namespace
 
 HexMaterials materials_of_variables(const Comm& comm, const std::string& path,
-                                    std::span<const std::string> variables,
-                                    std::span<const GlobalId> element, std::span<const double> value) {
+                                    std::span<const std::string> variables, std::span<const GlobalId> element,
+                                    std::span<const double> value) {
   if (variables.empty())
     throw AgreedError(fmt::format(
         "no source of materials: '{}' has no element variables with volume fractions; give them, or "

@@ -35,20 +35,22 @@ struct HexMaterials {
 
 // The blocks of an input mesh that are materials of their own.
 struct BlockMaterials {
-  std::vector<std::int64_t> id;            // per block
-  std::vector<std::uint8_t> kept;          // per block: it stays as it is
-  std::vector<std::int32_t> block_of_hex;  // of each of this rank's hexes, when void belongs to the blocks; else empty
+  std::vector<std::int64_t> id;    // per block
+  std::vector<std::uint8_t> kept;  // per block: it stays as it is
+  std::vector<std::int32_t>
+      block_of_hex;  // of each of this rank's hexes, when void belongs to the blocks; else empty
 };
 
 // Collective. Puts the blocks that are kept, or that what is void belongs to, among the materials; those
 // materials of the source whose ids are taken by blocks get the next free ones. An added void that no hex
 // holds goes. Materials ascend in id afterwards. Answers with the material of each block, kNone for blocks
 // that are none.
-[[nodiscard]] std::vector<std::int32_t> add_blocks(const Comm& comm, const Deck& deck, HexMaterials& materials,
-                                                   const BlockMaterials& blocks, const Log& log);
+[[nodiscard]] std::vector<std::int32_t> add_blocks(const Comm& comm, const Deck& deck,
+                                                   HexMaterials& materials, const BlockMaterials& blocks,
+                                                   const Log& log);
 
-// A source of data that are known for the hexes of a Cartesian grid, on whichever ranks. cell: of each of this
-// rank's hexes, in the numbering of the grid.
+// A source of data that are known for the hexes of a Cartesian grid, on whichever ranks. cell: of each of
+// this rank's hexes, in the numbering of the grid.
 [[nodiscard]] std::unique_ptr<MaterialSource> grid_of_hexes(Grid grid, std::vector<GlobalId> cell,
                                                             HexMaterials materials);
 

@@ -56,6 +56,7 @@ Overlay read_uniform(const Comm& comm, const Deck& deck, MaterialSource& source,
                   source.exact_surface(),
                   {},
                   {},
+                  {},
                   {}};
   if (deck.periodic) overlay.fractions = with_ghosts(overlay.cells, overlay.fractions);
   const bool pure = overlay.fractions.material.size() == static_cast<std::size_t>(overlay.fractions.cells());

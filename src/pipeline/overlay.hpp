@@ -42,6 +42,8 @@ struct Overlay {
   // Of an input mesh.
   std::optional<HexMesh> kept;  // hexes that stay as they are; cells has the others
   std::map<std::int64_t, std::string> block_names;
+  std::vector<std::uint8_t>
+      is_block;  // per material: 1 = a block whose interfaces with others stay; may be empty
   InputSets sets;
 };
 

@@ -59,7 +59,8 @@ void refuse_empty_mesh(const Comm& comm, const Overlay& overlay, const std::vect
   if (comm.sum(meshed) > 0) return;
   if (overlay.grid[0] == 0)
     throw Error(
-        "nothing to mesh: none of the hexes of the input mesh belongs to a material; the geometry lies outside "
+        "nothing to mesh: none of the hexes of the input mesh belongs to a material; the geometry lies "
+        "outside "
         "of them or fills less than half of every one");
   throw Error(fmt::format(
       "nothing to mesh: none of the {} x {} x {} cells of the grid belongs to a material; the geometry "
@@ -201,8 +202,8 @@ InterfaceTrack interface_track(const HexMesh& cells, const Interfaces& faces,
 
 struct Meshed {
   HexMesh mesh;
-  int pillows = 1;       // how often pillow() was called
-  SidePlan sides;        // what its side sets will be
+  int pillows = 1;  // how often pillow() was called
+  SidePlan sides;   // what its side sets will be
   std::vector<NodeSetMembers> node_sets;
   InterfaceTrack track;  // empty in a mesh that keeps the shape of the cells
 };
@@ -283,8 +284,7 @@ Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contou
   }
   correct_thickened_volumes(deck, layered.mesh, layered.geometry, wanted_volumes, log, stages);
   for (GlobalId& node : track.node) node *= layered.node_factor;
-  std::vector<NodeSetMembers> node_sets =
-      carried_node_sets(overlay.sets, layered.mesh, layered.node_factor);
+  std::vector<NodeSetMembers> node_sets = carried_node_sets(overlay.sets, layered.mesh, layered.node_factor);
   if (overlay.kept) {
     GlobalId hex_factor = 1;
     for (int i = 0; i < layered.pillows; ++i) hex_factor *= kHexFactor;
@@ -338,6 +338,18 @@ void remove_bad_hexes(const Comm& comm, const Deck& deck, const MaterialTable& m
   const std::vector<LocalId> index = remove_hexes(comm, mesh, remove);
   std::erase_if(faces, [&](const SideFace& f) { return index[at(f.hex)] == kNone; });
   for (SideFace& f : faces) f.hex = index[at(f.hex)];
+}
+
+// Interfaces between blocks of the input mesh stay where they are.
+void hold_block_interfaces(const Comm& comm, const Deck& deck, Overlay& overlay) {
+  if (overlay.is_block.empty()) return;
+  overlay.is_block.resize(overlay.materials.block_id.size(), 0);
+  const std::vector<std::int32_t>& material = overlay.cells.material;
+  hold_inside(comm, overlay.cells, overlay.neighbours, deck.exterior_sliding == kSlidingSurface,
+              [&](LocalId a, LocalId b) {
+                const std::size_t m = at(material[at(a)]), n = at(material[at(b)]);
+                return m != n && overlay.is_block[m] != 0 && overlay.is_block[n] != 0;
+              });
 }
 
 // Adds the volumes of hexes of one material each, in cells.
@@ -455,6 +467,7 @@ int run(const Comm& comm, const Deck& deck) {
   const std::vector<double> wanted_volumes = classify(
       comm, deck, overlay.cells, overlay.fractions, overlay.materials, overlay.neighbours, overlay.around,
       input_volume, [&] { return contoured_volumes(comm, deck, overlay); }, log, stages);
+  hold_block_interfaces(comm, deck, overlay);
   const MaterialTable materials = overlay.materials;
   const Carried carried{overlay.block_names, overlay.sets.side_sets, overlay.sets.node_sets};
   if (exports_grid(deck)) write_grid(comm, deck, overlay, log, stages);

@@ -46,9 +46,9 @@ void set_units(HexMesh& cells) {
     for (std::size_t c = 0; c < 8; ++c)
       for (const int d : kCornerNeighbours[c]) {
         const LocalId n = hex[c];
-        shortest[at(n)] = std::min(
-            shortest[at(n)],
-            norm(cells.position[at(hex[static_cast<std::size_t>(d)])] - cells.position[at(n)]));
+        shortest[at(n)] =
+            std::min(shortest[at(n)],
+                     norm(cells.position[at(hex[static_cast<std::size_t>(d)])] - cells.position[at(n)]));
       }
   cells.node_unit.clear();
   for (const double s : shortest) cells.node_unit.push_back(static_cast<float>(s / cells.cell_size.x));
@@ -108,9 +108,10 @@ class InputMeshOverlay {
 
   void refuse_what_needs_a_grid() const {
     const auto refuse = [&](const char* option, const std::string& why) {
-      throw AgreedError(fmt::format("option '{}' ({}): {}; '{}' is not a Cartesian grid or is more than one: blocks or "
-                                    "sets are to be kept",
-                                    option, deck_.given_options.place(option), why, path()));
+      throw AgreedError(
+          fmt::format("option '{}' ({}): {}; '{}' is not a Cartesian grid or is more than one: blocks or "
+                      "sets are to be kept",
+                      option, deck_.given_options.place(option), why, path()));
     };
     if (deck_.adapt_type != kAdaptOff)
       refuse("adapt_type", "refinement and coarsening pair the layers of a Cartesian grid");
@@ -201,6 +202,10 @@ class InputMeshOverlay {
       if (material_of_block[b] != kNone && !mesh_.blocks[b].name.empty())
         overlay.block_names[mesh_.blocks[b].id] = mesh_.blocks[b].name;
 
+    if (keeps_blocks()) {
+      overlay.is_block.assign(materials.table.block_id.size(), 0);
+      for (const std::int32_t m : material_of_block) overlay.is_block[at(m)] = 1;
+    }
     overlay.materials = std::move(materials.table);
     overlay.exact = std::move(materials.exact);
     overlay.pure = materials.pure;

@@ -147,8 +147,7 @@ class Corrector {
       }
     }
     for (std::size_t n = 0; n < of.size(); ++n)
-      for (Gradient& g : of[n])
-        g.by = freedom(mesh_, static_cast<LocalId>(n), mesh_.position[n]).along(g.by);
+      for (Gradient& g : of[n]) g.by = freedom(mesh_, static_cast<LocalId>(n), mesh_.position[n]).along(g.by);
     return of;
   }
 

@@ -10,7 +10,7 @@
 namespace sculpt {
 namespace {
 
-constexpr int kTop = 5;             // the face of a buffer hex that lies where the old face was
+constexpr int kTop = 5;  // the face of a buffer hex that lies where the old face was
 constexpr std::int64_t kGridBoundary = 1, kExterior = 2, kInterfaces = 3;  // sets of `fixed`
 
 // Where a surface is met first.

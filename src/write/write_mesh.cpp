@@ -177,9 +177,9 @@ class RankPart {
       if (found != mesh_.node_id.end() && *found == id)
         in_set[static_cast<std::size_t>(found - mesh_.node_id.begin())] = 1;
     }
-    mesh_.node_exchange.reduce_to_owners(
-        std::span<std::uint8_t>(in_set),
-        [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a | b); });
+    mesh_.node_exchange.reduce_to_owners(std::span<std::uint8_t>(in_set), [](std::uint8_t a, std::uint8_t b) {
+      return static_cast<std::uint8_t>(a | b);
+    });
     mesh_.node_exchange.copy_to_ghosts(in_set);
     RankMesh::NodeSet set;
     set.id = members.id;

@@ -23,7 +23,8 @@ Overlay overlay(const Comm& comm, const Case& input, int layers) {
     o.cells.cell_size = input.cell_size;
     const IndexBox nodes{{0, 0, 0},
                          {input.grid.cells[0] + 1, input.grid.cells[1] + 1, input.grid.cells[2] + 1}};
-    for (const GlobalId n : o.cells.node_id) o.cells.node_unit.push_back(std::ldexp(1.0F, -input.level(nodes.cell(n))));
+    for (const GlobalId n : o.cells.node_id)
+      o.cells.node_unit.push_back(std::ldexp(1.0F, -input.level(nodes.cell(n))));
   }
   assign_materials(o.cells, o.fractions, face_neighbours(o.cells));
   return o;

@@ -29,10 +29,16 @@ struct ExteriorOptions {
 void find_exterior(const Comm& comm, HexMesh& cells, const FaceNeighbours& neighbours,
                    std::span<const std::uint8_t> kept, const ExteriorOptions& options);
 
-// Collective. Marks the facets that must stay whole, surface by surface: those of curved surfaces that interfaces
-// meet, which otherwise would not keep their shape (where nodes may slide across the edges they need not); and
-// those of surfaces at whose edges an interface runs along the edge, since no copy of a node could both keep
-// to the edge and leave room for the layers. `exterior` is that of the cells.
+// Local. Holds the nodes of faces inside the mesh, too, as if these were on the boundary: faces between cells
+// for which is_held (of cells in ascending order, the same on all ranks) tells so. The materials of the cells
+// are known.
+void hold_inside(const Comm& comm, HexMesh& cells, const FaceNeighbours& neighbours, bool slides,
+                 const std::function<bool(LocalId cell, LocalId other)>& is_held);
+
+// Collective. Marks the facets that must stay whole, surface by surface: those of curved surfaces that
+// interfaces meet, which otherwise would not keep their shape (where nodes may slide across the edges they
+// need not); and those of surfaces at whose edges an interface runs along the edge, since no copy of a node
+// could both keep to the edge and leave room for the layers. `exterior` is that of the cells.
 void keep_whole(const Comm& comm, Exterior& exterior, const HexMesh& cells, const Interfaces& faces);
 
 }  // namespace sculpt

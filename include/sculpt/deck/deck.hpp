@@ -92,7 +92,12 @@ enum HtetMethod : int { kHtetStructured = 0, kHtetUnstructured = 1 };
 enum HtetTransition : int { kHtetNone = 0, kHtetPyramid = 1, kHtetTiedContact = 2 };
 enum InputMeshMaterial : int { kMeshMaterialAutomatic = 0, kMeshMaterialGeometryAndBlocks = 1 };
 // Options of ours, not Sculpt's.
-enum InputMeshPartition : int { kPartitionRcb = 0, kPartitionRib = 1, kPartitionHsfc = 2, kPartitionGraph = 3 };
+enum InputMeshPartition : int {
+  kPartitionRcb = 0,
+  kPartitionRib = 1,
+  kPartitionHsfc = 2,
+  kPartitionGraph = 3
+};
 enum ExteriorSliding : int { kSlidingExact = 0, kSlidingSurface = 1 };
 enum PeriodicAxis : int { kAxisNone = 0, kAxisX = 1, kAxisY = 2, kAxisZ = 3 };
 // An option of ours, not Sculpt's: bit d stands for axis d.

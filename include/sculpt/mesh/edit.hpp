@@ -32,9 +32,9 @@ void transform(HexMesh& mesh, const Vec3& scale, const Vec3& translate);
 // are no part of it. Answers with the new index of each old hex, kNone = removed.
 std::vector<LocalId> remove_hexes(const Comm& comm, HexMesh& mesh, std::vector<std::uint8_t> remove);
 
-// Collective. Puts the hexes of another mesh, of which this one has none, beside those of this one; nodes with
-// the same id are the same, with the same owner. Ids of `other` are multiplied by the factors first. Both have
-// the ghosts of the mesh that they make together. The result has no exterior.
+// Collective. Puts the hexes of another mesh, of which this one has none, beside those of this one; nodes
+// with the same id are the same, with the same owner. Ids of `other` are multiplied by the factors first.
+// Both have the ghosts of the mesh that they make together. The result has no exterior.
 void join_hexes(const Comm& comm, HexMesh& mesh, HexMesh other, GlobalId node_factor, GlobalId hex_factor);
 
 }  // namespace sculpt

@@ -26,7 +26,7 @@ struct Facet {
 struct Hold {
   enum class Kind : std::uint8_t { kPoint, kLine, kSurface };
   Kind kind = Kind::kPoint;
-  std::array<Vec3, 3> line{};      // kLine: two segments, 0-1 and 1-2; one may have no length
+  std::array<Vec3, 3> line{};        // kLine: two segments, 0-1 and 1-2; one may have no length
   std::int32_t first = 0, last = 0;  // kSurface: its facets, in Exterior::patch
 };
 
@@ -42,9 +42,9 @@ struct Exterior {
   std::vector<ExteriorFace> faces;  // ascending in (hex, face)
   std::vector<LocalId> hold_of;     // per node: index into holds, kNone: moves freely
   std::vector<Hold> holds;
-  std::vector<LocalId> patch;  // facets of the holds
+  std::vector<LocalId> patch;        // facets of the holds
   std::vector<std::uint8_t> curved;  // per surface: 1 = it does not lie in one plane; the same on all ranks
-  bool slides = false;         // nodes may slide across the edges between facets of one surface
+  bool slides = false;               // nodes may slide across the edges between facets of one surface
 
   [[nodiscard]] bool empty() const { return hold_of.empty(); }
   [[nodiscard]] LocalId facet_at(LocalId hex, int face) const;  // kNone: no face on the boundary

@@ -47,9 +47,9 @@ struct HexMesh {
   std::vector<std::uint8_t> box_sides;   // sides of the domain that hold the node: of its box (BoxSide), or
                                          // surfaces of its exterior, which share bits where they never meet
   std::vector<std::uint8_t>
-      colour;                       // nodes of one colour share no hex unless they stem from one overlay node
-  std::vector<float> node_unit;     // size of the smallest cells around the node, in units of cell_size;
-                                    // empty: 1 everywhere, as in every lattice
+      colour;                    // nodes of one colour share no hex unless they stem from one overlay node
+  std::vector<float> node_unit;  // size of the smallest cells around the node, in units of cell_size;
+                                 // empty: 1 everywhere, as in every lattice
 
   // Hexes.
   std::vector<Hex> hexes;               // Exodus corner order, local node indices

@@ -32,7 +32,9 @@ std::int64_t node_checksum(const Comm& comm, const HexMesh& mesh) {
   for (std::size_t n = 0; n < mesh.node_id.size(); ++n)
     if (mesh.node_owner[n] == comm.rank())
       sum += static_cast<std::int64_t>(
-          scatter(scatter(mesh.colour[n], static_cast<std::uint64_t>(1024 * mesh.node_unit[n])), static_cast<std::uint64_t>(mesh.node_id[n])) >> 24);
+          scatter(scatter(mesh.colour[n], static_cast<std::uint64_t>(1024 * mesh.node_unit[n])),
+                  static_cast<std::uint64_t>(mesh.node_id[n])) >>
+          24);
   return comm.sum(sum);
 }
 

@@ -319,6 +319,7 @@ void keep_whole(const Comm& comm, Exterior& exterior, const HexMesh& cells, cons
   }
   comm.bit_or(whole);
   for (Facet& f : exterior.facets) {
+    if (f.surface == kInside) continue;
     const auto s = static_cast<std::size_t>(f.surface);
     if ((whole[s / 64] >> (s % 64) & 1) != 0) f.whole = 1;
   }

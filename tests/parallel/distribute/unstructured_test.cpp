@@ -82,7 +82,7 @@ void expect_part_of(const WholeMesh& whole, const ElementShare& share, const Uns
   }
   EXPECT_EQ(cells.ghost_layers, layers);
   EXPECT_EQ(cells.lattice, (std::array<LocalId, 3>{0, 0, 0}));
-  EXPECT_TRUE(cells.level.empty());
+  EXPECT_TRUE(cells.node_unit.empty());
 }
 
 std::vector<std::int32_t> owners(const Comm& comm, const ElementShare& share) {

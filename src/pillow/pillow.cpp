@@ -131,39 +131,44 @@ class Pillower {
       if (!on_boundary_[at(n)]) continue;
       copy_node(n, items);
       if (rules_.box_sides == 0 && mesh_.box_sides[at(n)] != 0) {
-        const auto left = static_cast<std::uint8_t>(sides_of_layers(items) | sides_of_hexes(n, items));
+        const std::uint8_t left = sides_left(n, items);
         result_.mesh.box_sides[at(first_[at(n)])] = left;
         if (!mesh_.exterior.empty() && left != mesh_.box_sides[at(n)]) leave_exterior(n, items, left);
       }
     }
   }
 
-  // The sides of the domain on which an old node has a face of a new hex: on a wrapped side, or where a
-  // wrapped face meets the side in an edge at the node. In meshes that are no lattice a hex may touch a side
-  // in an edge or a node only; the layers around it close over that, and the node lies inside then.
-  [[nodiscard]] std::uint8_t sides_of_layers(std::span<const std::int32_t> items) const {
-    unsigned sides = 0;
+  // The sides of the domain on which an old node still has a face, now that its copies are known: a wrapped
+  // one, one of a hex that did not take a copy, or one of a new hex, where a wrapped face meets the side in
+  // an edge at the node. But where the faces on both sides of that edge belong to one group, the layers close
+  // over the edge: in meshes that are no lattice a hex may touch the boundary in an edge or a node only, and
+  // the node lies inside then.
+  [[nodiscard]] std::uint8_t sides_left(LocalId node, std::span<const std::int32_t> items) {
+    unsigned left = 0;
+    rim_.clear();
     for (const std::int32_t item : items) {
-      const LocalId h = item / 8;
-      const auto& at_corner = kCornerFaces[static_cast<std::size_t>(item % 8)];
-      const bool at_layer =
-          std::any_of(at_corner.begin(), at_corner.end(), [&](int g) { return wrapped(h, g); });
-      for (const int f : at_corner)
-        if (at_layer && neighbours_[at(h)][static_cast<std::size_t>(f)] == kNone)
-          sides |= face_sides(mesh_, h, f);
+      const LocalId h = item / 8, corner = corner_[at(h)][static_cast<std::size_t>(item % 8)];
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
+        if (neighbours_[at(h)][static_cast<std::size_t>(f)] != kNone) continue;
+        const std::uint8_t sides = face_sides(mesh_, h, f);
+        if (wrapped(h, f) || corner == first_[at(node)]) left |= sides;
+        if (wrapped(h, f)) continue;
+        const auto nodes = face_nodes(mesh_, {h, f});
+        const auto v = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+        for (const LocalId end : {nodes[(v + 1) % 4], nodes[(v + 3) % 4]}) {
+          const bool at_layer = wrapped(h, across_edge(mesh_, {h, f}, node, end).face);
+          rim_.push_back({end, corner, sides, at_layer});
+        }
+      }
     }
-    return static_cast<std::uint8_t>(sides);
-  }
-  // Those on which it has a face of an old hex that did not take a copy.
-  [[nodiscard]] std::uint8_t sides_of_hexes(LocalId node, std::span<const std::int32_t> items) const {
-    unsigned sides = 0;
-    for (const std::int32_t item : items) {
-      const LocalId h = item / 8;
-      if (corner_[at(h)][static_cast<std::size_t>(item % 8)] != first_[at(node)]) continue;
-      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)])
-        if (neighbours_[at(h)][static_cast<std::size_t>(f)] == kNone) sides |= face_sides(mesh_, h, f);
+    for (const Rim& one : rim_) {
+      if (!one.at_layer) continue;
+      const bool closed = std::any_of(rim_.begin(), rim_.end(), [&](const Rim& two) {
+        return &one != &two && one.end == two.end && one.corner == two.corner;
+      });
+      if (!closed) left |= one.sides;
     }
-    return static_cast<std::uint8_t>(sides);
+    return static_cast<std::uint8_t>(left);
   }
 
   // One copy for every face-connected group of equally labelled hexes at the node that has a wrapped face
@@ -252,7 +257,7 @@ class Pillower {
     exterior.hold_of.back() = kNone;
     if (pieces_.empty()) return;
     add_pieces(node, items, all_pieces_);
-    if (all_pieces_.size() == pieces_.size() && sides_of_layers(items) == 0) {  // it takes the node's place
+    if (all_pieces_.size() == pieces_.size() && !at_whole_face(items)) {  // it takes the node's place
       exterior.hold_of.back() = mesh_.exterior.hold_of[at(node)];
       result_.mesh.position.back() = p;
       return;
@@ -273,6 +278,14 @@ class Pillower {
       q = exterior.nearest(hold, p + (0.5 * rules_.offset) * (there - p));
     }
     result_.mesh.position.back() = q;
+  }
+  // Whether a face of the boundary is wrapped at the node, so that the node stays there.
+  [[nodiscard]] bool at_whole_face(std::span<const std::int32_t> items) const {
+    for (const std::int32_t item : items)
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)])
+        if (neighbours_[at(item / 8)][static_cast<std::size_t>(f)] == kNone && wrapped(item / 8, f))
+          return true;
+    return false;
   }
   LocalId hold_for_pieces() {
     Exterior& exterior = result_.mesh.exterior;
@@ -601,6 +614,14 @@ class Pillower {
   std::vector<LocalId> start_;  // per old hex: its new number, followed by those of the hexes on its faces
   std::vector<std::int32_t> group_;
   std::vector<LocalId> inner_, outer_;
+  // An edge at a node of a face on the boundary: its other end, the new node that the hex takes there, the
+  // sides that hold the face, whether a new hex has a face there over the edge.
+  struct Rim {
+    LocalId end, corner;
+    std::uint8_t sides;
+    bool at_layer;
+  };
+  std::vector<Rim> rim_;
   std::vector<Piece> pieces_, all_pieces_;
   std::vector<LocalId> patch_;
   std::vector<std::uint8_t> done_;

@@ -205,8 +205,6 @@ std::vector<Mistake> file_mistakes() {
   std::string misspelt = radial;
   misspelt.replace(misspelt.find("rblock"), 6, "rblok");
   return {
-      with_file("MissingMesh", [](BadInput& t) { std::filesystem::remove(t.path("m.g")); },
-                {"'m.g'", "No such file"}),
       with_file("MeshIsAFolder",
                 [](BadInput& t) {
                   std::filesystem::remove(t.path("m.g"));
@@ -337,6 +335,13 @@ TEST_F(BadParts, OneIsTruncated) {
   write_good_parts(4);
   std::filesystem::resize_file(path("m.g.4.3"), 900);
   expect_refused(4, {"'m.g.4.3'"});
+}
+
+TEST_F(BadParts, NoneAndNoWhole) {
+  write("deck.i", "BEGIN SCULPT\ninput_mesh = m.g\nEND SCULPT\n");
+  const std::string found = "cannot open 'm.g': No such file or directory, and no parts of it; expected ";
+  expect_refused(1, {found + "the whole file on one rank"});
+  expect_refused(4, {found + "it, or 'm.g.4.0' to 'm.g.4.3', made by: decomp -p 4 m.g"});
 }
 
 TEST_F(BadParts, NamedInsteadOfTheWhole) {

@@ -84,9 +84,19 @@ std::vector<std::string> idle_grid_options(const Deck& deck) {
          {"feature_angle", "exterior_sliding", "input_mesh_partition", "input_mesh_material"});
     return told;
   }
+  if (deck.input_spn.empty() && deck.diatom_file.empty())
+    tell("the materials are element variables, which leave no void to the blocks", {"input_mesh_material"});
   if (deck.input_spn.empty()) tell("the input mesh is the grid", {"nelx", "nely", "nelz"});
   tell("the input mesh has a place and cells of its own",
        {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", "cell_size"});
+  return told;
+}
+
+std::vector<std::string> idle_without_grid(const Deck& deck) {
+  std::vector<std::string> told = idle_adapt_options(deck);
+  const std::string idle =
+      given_of(deck, {"iproc", "jproc", "kproc", "check_periodic", "check_periodic_tol"});
+  if (!idle.empty()) told.push_back(fmt::format("the input mesh is no Cartesian grid; no effect: {}", idle));
   return told;
 }
 

@@ -60,8 +60,20 @@ TEST(IdleGridOptions, OfMeshesAndGrids) {
                                     "input_mesh_partition, input_mesh_material"});
   const std::string place = "the input mesh has a place and cells of its own; no effect: xmin, zmax";
   EXPECT_EQ(idle(grid + mesh + "input_mesh = a.g\n"),
-            (Told{"the input mesh is the grid; no effect: nelx, nely", place}));
+            (Told{"the materials are element variables, which leave no void to the blocks; no effect: "
+                  "input_mesh_material",
+                  "the input mesh is the grid; no effect: nelx, nely", place}));
   EXPECT_EQ(idle(grid + mesh + "input_mesh_pamgen = a.p\ninput_spn = a.spn"), Told{place});
+}
+
+TEST(IdleWithoutGrid, TellsOfRefinementAndOfSegments) {
+  const auto idle = [](const std::string& lines) {
+    return idle_without_grid(parse_deck("BEGIN SCULPT\n" + lines + "\nEND SCULPT\n", "deck.i"));
+  };
+  EXPECT_EQ(idle("input_mesh = a.g"), Told{});
+  EXPECT_EQ(idle("adapt_levels = 2\njproc = 1\ncheck_periodic = false"),
+            (Told{"adapt_type is off; no effect: adapt_levels",
+                  "the input mesh is no Cartesian grid; no effect: jproc, check_periodic"}));
 }
 
 }  // namespace

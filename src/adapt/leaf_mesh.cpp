@@ -366,7 +366,9 @@ class Builder {
       leaf.end = leaf.first + count;
     }
     m.node_id.swap(keys_);
-    compact(turn_, drop_unused_nodes(m));
+    const std::vector<LocalId> node = drop_unused_nodes(m);
+    compact(turn_, node);
+    compact(level_, node);
     m.node_id.swap(keys_);
   }
 

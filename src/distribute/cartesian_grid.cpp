@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "distribute/id_set.hpp"
+#include "sculpt/base/even_parts.hpp"
 #include "sculpt/geom/hex.hpp"
 #include "sculpt/mesh/node_directory.hpp"
-#include "sculpt/par/id_ranges.hpp"
 
 namespace sculpt {
 namespace {
@@ -116,14 +116,14 @@ GlobalId cell_of(const Grid& grid, const std::array<Index3, 8>& corner) {
 
 // Collective. Whether no cell occurs twice.
 bool all_differ(const Comm& comm, const Grid& grid, std::span<const GlobalId> cells) {
-  const IdRanges ranges(grid.cell_count(), comm.size());
+  const EvenParts ranges{grid.cell_count(), comm.size()};
   std::vector<std::vector<GlobalId>> out(static_cast<std::size_t>(comm.size()));
-  for (const GlobalId cell : cells) out[ranges.rank(cell)].push_back(cell);
+  for (const GlobalId cell : cells) out[ranges.part_of(cell)].push_back(cell);
   std::vector<std::uint8_t> seen(ranges.size(comm.rank()), 0);
   std::int64_t good = 1;
   for (const auto& from : comm.all_to_all(out))
     for (const GlobalId cell : from) {
-      std::uint8_t& s = seen[static_cast<std::size_t>(cell - ranges.first(comm.rank()))];
+      std::uint8_t& s = seen[static_cast<std::size_t>(cell - ranges.begin(comm.rank()))];
       if (s != 0) good = 0;
       s = 1;
     }

@@ -119,7 +119,7 @@ class Conformity {
     std::vector<std::uint8_t> elsewhere(nodes.ids().size(), 0);  // other ranks have elements there
     for (const NodeHolder& holder : NodeRanks(comm_, share_, nodes).others(nodes.ids()))
       elsewhere[at(holder.item)] = 1;
-    const IdRanges ranges(share_.nodes, comm_.size());
+    const EvenParts ranges{share_.nodes, comm_.size()};
     std::vector<std::vector<Side>> out(static_cast<std::size_t>(comm_.size()));
     std::vector<Side> sides, exterior;
     const auto settle = [&](std::span<const Side> group) {
@@ -135,7 +135,7 @@ class Conformity {
       const bool shared =
           std::all_of(key.begin(), key.end(), [&](GlobalId n) { return elsewhere[at(nodes.index(n))] != 0; });
       if (!shared) return settle(sides);
-      auto& to = out[ranges.rank(key[0])];
+      auto& to = out[ranges.part_of(key[0])];
       to.insert(to.end(), sides.begin(), sides.end());
     });
     struct Met {
@@ -195,12 +195,12 @@ class Conformity {
       GlobalId lo, hi;
       ExteriorFace face;
     };
-    const IdRanges ranges(share_.nodes, comm_.size());
+    const EvenParts ranges{share_.nodes, comm_.size()};
     std::vector<std::vector<Diagonal>> out(static_cast<std::size_t>(comm_.size()));
     for (const ExteriorFace& face : exterior)
       for (std::size_t v = 0; v < 2; ++v) {
         const auto [lo, hi] = std::minmax(face.nodes[v], face.nodes[v + 2]);
-        out[ranges.rank(lo)].push_back({lo, hi, face});
+        out[ranges.part_of(lo)].push_back({lo, hi, face});
       }
     std::vector<Diagonal> met;
     for (const auto& from : comm_.all_to_all(out)) met.insert(met.end(), from.begin(), from.end());

@@ -15,7 +15,7 @@ struct Record {
 }  // namespace
 
 NodeRanks::NodeRanks(const Comm& comm, const ElementShare& share, const IdSet& nodes)
-    : comm_(comm), ranges_(share.nodes, comm.size()) {
+    : comm_(comm), ranges_{share.nodes, comm.size()} {
   std::vector<std::vector<Record>> out(static_cast<std::size_t>(comm.size()));
   collectively(comm, "sorting the nodes of the elements", [&] {
     const std::vector<GlobalId>& ids = nodes.ids();
@@ -25,7 +25,7 @@ NodeRanks::NodeRanks(const Comm& comm, const ElementShare& share, const IdSet& n
     std::vector<GlobalId> least(ids.size(), std::numeric_limits<GlobalId>::max());
     for (std::size_t e = share.element.size(); e-- > 0;)
       for (const GlobalId id : share.corner[e]) least[at(nodes.index(id))] = share.element[e];
-    for (std::size_t i = 0; i < ids.size(); ++i) out[ranges_.rank(ids[i])].push_back({ids[i], least[i]});
+    for (std::size_t i = 0; i < ids.size(); ++i) out[ranges_.part_of(ids[i])].push_back({ids[i], least[i]});
   });
   const auto in = comm.all_to_all(out);
   const std::size_t kept = ranges_.size(comm.rank());
@@ -50,7 +50,7 @@ NodeRanks::NodeRanks(const Comm& comm, const ElementShare& share, const IdSet& n
 
 std::vector<std::vector<GlobalId>> NodeRanks::asked(std::span<const GlobalId> nodes) const {
   std::vector<std::vector<GlobalId>> wanted(static_cast<std::size_t>(comm_.size()));
-  for (const GlobalId node : nodes) wanted[ranges_.rank(node)].push_back(node);
+  for (const GlobalId node : nodes) wanted[ranges_.part_of(node)].push_back(node);
   return comm_.all_to_all(wanted);
 }
 

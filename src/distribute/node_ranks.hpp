@@ -7,7 +7,7 @@
 #include "distribute/id_set.hpp"
 #include "sculpt/mesh/element_share.hpp"
 #include "sculpt/par/comm.hpp"
-#include "sculpt/par/id_ranges.hpp"
+#include "sculpt/base/even_parts.hpp"
 
 namespace sculpt {
 
@@ -32,11 +32,11 @@ class NodeRanks {
  private:
   [[nodiscard]] std::vector<std::vector<GlobalId>> asked(std::span<const GlobalId> nodes) const;
   [[nodiscard]] std::size_t slot(GlobalId node) const {
-    return static_cast<std::size_t>(node - ranges_.first(comm_.rank()));
+    return static_cast<std::size_t>(node - ranges_.begin(comm_.rank()));
   }
 
   Comm comm_;
-  IdRanges ranges_;
+  EvenParts ranges_;
   // Of the nodes that this rank keeps.
   std::vector<std::int32_t> owner_;
   std::vector<std::int64_t> first_;  // of each node in ranks_

@@ -5,8 +5,8 @@
 
 #include "distribute/faces.hpp"
 #include "distribute/id_set.hpp"
+#include "sculpt/base/even_parts.hpp"
 #include "sculpt/mesh/node_directory.hpp"
-#include "sculpt/par/id_ranges.hpp"
 
 namespace sculpt {
 namespace {
@@ -27,10 +27,11 @@ std::vector<Vec3> centres(const Comm& comm, const ElementShare& share, const IdS
 class DualGraph {
  public:
   DualGraph(const Comm& comm, const ElementShare& share, const IdSet& nodes) : share_(share) {
-    const IdRanges ranges(share.nodes, comm.size());
+    const EvenParts ranges{share.nodes, comm.size()};
     std::vector<std::vector<Open>> open(static_cast<std::size_t>(comm.size()));
     for_each_face(share, nodes, [&](std::span<const LocalFace> faces) {
-      if (faces.size() == 1) open[ranges.rank(faces[0].key[0])].push_back({faces[0].key, element(faces[0])});
+      if (faces.size() == 1)
+        open[ranges.part_of(faces[0].key[0])].push_back({faces[0].key, element(faces[0])});
       for (std::size_t i = 1; i < faces.size(); ++i) {
         add(element(faces[0]), element(faces[i]), comm.rank());
         add(element(faces[i]), element(faces[0]), comm.rank());

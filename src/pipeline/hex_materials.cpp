@@ -17,10 +17,10 @@ bool all_pure(const Comm& comm, const Fractions& f) {
   return comm.min(std::int64_t{f.material.size() == static_cast<std::size_t>(f.cells())}) == 1;
 }
 
-Box bounds_of(std::span<const HexCorners> hexes) {
+Box bounds_of(const HexList& hexes) {
   Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-  for (const HexCorners& hex : hexes)
-    for (const Vec3& p : hex)
+  for (std::size_t h = 0; h < hexes.size; ++h)
+    for (const Vec3& p : hexes.corners(h))
       for (std::size_t d = 0; d < 3; ++d) {
         box.lo[d] = std::min(box.lo[d], p[d]);
         box.hi[d] = std::max(box.hi[d], p[d]);
@@ -142,8 +142,7 @@ HexMaterials materials_of_variables(const Comm& comm, const std::string& path,
   return m;
 }
 
-HexMaterials materials_of_source(const Comm& comm, const Deck& deck, std::span<const HexCorners> hexes,
-                                 const Log& log) {
+HexMaterials materials_of_source(const Comm& comm, const Deck& deck, const HexList& hexes, const Log& log) {
   const Box mine = bounds_of(hexes);
   Box all;
   for (std::size_t d = 0; d < 3; ++d) {
@@ -152,7 +151,7 @@ HexMaterials materials_of_source(const Comm& comm, const Deck& deck, std::span<c
   }
   const auto source = open_source(comm, deck, log, all);
   const bool data = source->is_data();
-  const IndexBox voxels = data && !hexes.empty() ? voxels_for(source->grid(), mine) : IndexBox{};
+  const IndexBox voxels = data && hexes.size > 0 ? voxels_for(source->grid(), mine) : IndexBox{};
   const std::vector<IndexBox> wanted = comm.gather_all(voxels);
   MaterialData read = source->read(comm, wanted);
   HexMaterials m;
@@ -160,7 +159,7 @@ HexMaterials materials_of_source(const Comm& comm, const Deck& deck, std::span<c
   const std::int32_t outside = outside_of(deck, m);
   collectively(comm, "measuring the hexes of the input mesh", [&] {
     const auto field = source->hex_field(std::move(read.fractions), voxels, outside);
-    for (const HexCorners& hex : hexes) field->measure(hex, m.owned);
+    for (std::size_t h = 0; h < hexes.size; ++h) field->measure(hexes.corners(h), m.owned);
   });
   m.exact = source->exact_surface();
   m.pure = data && all_pure(comm, m.owned);

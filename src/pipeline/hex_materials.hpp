@@ -1,6 +1,7 @@
 #pragma once
 // The materials of the hexes of an input mesh: from its element variables, or from a geometry source that is
 // asked hex by hex; and the blocks of the mesh among them.
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -13,6 +14,12 @@
 #include "sculpt/par/comm.hpp"
 
 namespace sculpt {
+
+// This rank's hexes that want materials.
+struct HexList {
+  std::size_t size = 0;
+  std::function<HexCorners(std::size_t)> corners;
+};
 
 struct HexMaterials {
   MaterialTable table;
@@ -30,8 +37,8 @@ struct HexMaterials {
                                                   std::span<const double> value);
 
 // Collective. From the geometry source of the deck. Space that it knows nothing of is void.
-[[nodiscard]] HexMaterials materials_of_source(const Comm& comm, const Deck& deck,
-                                               std::span<const HexCorners> hexes, const Log& log);
+[[nodiscard]] HexMaterials materials_of_source(const Comm& comm, const Deck& deck, const HexList& hexes,
+                                               const Log& log);
 
 // The blocks of an input mesh that are materials of their own.
 struct BlockMaterials {

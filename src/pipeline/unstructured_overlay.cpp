@@ -123,20 +123,22 @@ class InputMeshOverlay {
       const auto source = open_source(comm_, on_grid, log_, std::nullopt);
       return read_on_grid(comm_, on_grid, *source, log_, stages_);
     }
-    std::vector<HexCorners> hexes(mesh_.share.element.size());
-    for (std::size_t e = 0; e < hexes.size(); ++e) {
-      const Index3 c = whole(n).cell(shape.cell[e]);
-      for (std::size_t v = 0; v < 8; ++v)
-        hexes[e][v] = shape.grid.corner(
-            {c[0] + kCornerOffset[v][0], c[1] + kCornerOffset[v][1], c[2] + kCornerOffset[v][2]});
-    }
+    const HexList hexes{mesh_.share.element.size(), [&](std::size_t e) {
+                          const Index3 c = whole(n).cell(shape.cell[e]);
+                          HexCorners corners;
+                          for (std::size_t v = 0; v < 8; ++v)
+                            corners[v] =
+                                shape.grid.corner({c[0] + kCornerOffset[v][0], c[1] + kCornerOffset[v][1],
+                                                   c[2] + kCornerOffset[v][2]});
+                          return corners;
+                        }};
     HexMaterials materials = measure(hexes, mesh_.share.element, mesh_.share.value);
     (void)add_blocks(comm_, deck_, materials, {}, log_);
     const auto source = grid_of_hexes(shape.grid, shape.cell, std::move(materials));
     return read_on_grid(comm_, deck_, *source, log_, stages_);
   }
 
-  HexMaterials measure(const std::vector<HexCorners>& hexes, std::span<const GlobalId> element,
+  HexMaterials measure(const HexList& hexes, std::span<const GlobalId> element,
                        std::span<const double> value) const {
     return deck_.input_spn.empty() && deck_.diatom_file.empty()
                ? materials_of_variables(comm_, path(), mesh_.variables, element, value)
@@ -162,7 +164,7 @@ class InputMeshOverlay {
     stages_.end("distribute");
 
     // The hexes that receive the microstructure.
-    std::vector<HexCorners> hexes;
+    std::vector<LocalId> cell;
     std::vector<GlobalId> element;
     std::vector<double> value;
     std::vector<std::int32_t> block;  // of each
@@ -172,13 +174,14 @@ class InputMeshOverlay {
       if (cells.layer[at(c)] != 0) continue;
       const std::size_t first = per_hex * owned++;
       if (kept[at(c)]) continue;
-      hexes.push_back(cells.corners(c));
+      cell.push_back(c);
       element.push_back(cells.hex_id[at(c)]);
       block.push_back(full.block[at(c)]);
       value.insert(value.end(), full.value.begin() + static_cast<std::ptrdiff_t>(first),
                    full.value.begin() + static_cast<std::ptrdiff_t>(first + per_hex));
     }
-    HexMaterials materials = measure(hexes, element, value);
+    HexMaterials materials =
+        measure({cell.size(), [&](std::size_t h) { return cells.corners(cell[h]); }}, element, value);
     if (!keeps_blocks()) block.clear();
     const std::vector<std::int32_t> material_of_block =
         add_blocks(comm_, deck_, materials, {block_ids(), kept_block_, std::move(block)}, log_);

@@ -18,7 +18,7 @@ constexpr double kShort = 0.06, kLongEnough = 0.1;  // edges, in cells
 constexpr int kAttempts = 3;                        // of all phases, each from another place
 constexpr double kFolded = 1e-6;                    // the quality that marks a folded hex is below this
 constexpr double kFar = 0.05;      // a move that makes the neighbours worth another visit: a length, whatever
-                                   // the cells are
+                                   // the cells are; with an exterior in mean cells
 constexpr double kMargin = 0.05;   // hexes this little above the target are raised as well
 constexpr double kGiveWay = 0.3;   // price of deviation from one round of the guarantee to the next
 constexpr double kNoPrice = 1e-5;  // of deviation: lowering it further changes nothing
@@ -52,6 +52,7 @@ class Phases {
     per_axis_ = {1 / h.x, 1 / h.y, 1 / h.z};
     size_ = h.x == h.y && h.y == h.z ? h.x : std::cbrt(h.x * h.y * h.z);
     isotropic_ = {1 / size_, 1 / size_, 1 / size_};
+    if (!mesh.exterior.empty()) far_ = kFar * size_;
   }
 
   void run() {
@@ -101,7 +102,7 @@ class Phases {
       if (hexes == 0) break;
       log_.line("Lengthening Iter: {}, hexes with an edge below {:g} cells: {}", i + 1, kShort, hexes);
       set_.choose(kFolded, i / 2, false);
-      sweep(rules, kFar);
+      sweep(rules, far_);
     }
     set_.refresh_all_quality();
   }
@@ -203,7 +204,7 @@ class Phases {
       if (i > 0 && i % 5 == 0) layers = std::min(layers + 1, 4);  // and farther around
       // The first sweeps settle the bulk; what resists them is worked on in its own neighbourhood.
       set_.choose(i < kBulkSweeps ? 0.1 : 1e-3, layers, false);
-      sweep(rules, kFar);
+      sweep(rules, far_);
       report("Untangling", i + 1);
     }
   }
@@ -218,7 +219,7 @@ class Phases {
             if (std::isfinite(farthest_)) step_.pull_back(n, farthest_);
             return true;
           },
-          kFar);
+          far_);
   }
   static double next_eps(double worst, double eps, bool first) {
     if (first) eps = worst < 1e-4 ? std::sqrt(1e-12 + 0.04 * worst * worst) + 1e-2 : 1e-2;
@@ -239,7 +240,7 @@ class Phases {
       const std::int64_t nodes = set_.choose(options_.improve_below, 1, i > 0);
       if (i == 0) first = nodes;
       if (nodes == 0 || (i > 0 && nodes < first / 50)) break;
-      const std::int64_t moves = sweep(rules, kFar);
+      const std::int64_t moves = sweep(rules, far_);
       report("Jacobi Opt", i + 1);
       if (moves < nodes / 50) break;
     }
@@ -271,7 +272,7 @@ class Phases {
           std::pow(1 / aim.target, rules.power / 4.0);  // keeps pace with the energy at the target
       for (int i = 0; i < 4 && aim.done < aim.sweeps; ++i) {
         if (set_.choose(aim.target + kMargin, 1, false) == 0) return;
-        const std::int64_t moves = sweep(rules, kFar);
+        const std::int64_t moves = sweep(rules, far_);
         report_target(aim, moves);
         if (moves == 0) break;
       }
@@ -284,12 +285,12 @@ class Phases {
     const auto step = [&](LocalId n) { return (freely || !on_interface(n)) && step_.climb(n, rules); };
     for (int i = 0; i < 24 && aim.done < aim.sweeps; ++i) {
       if (set_.choose(aim.target, 0, false) == 0) return;
-      const std::int64_t moves = moves_of(step, kFar);
+      const std::int64_t moves = moves_of(step, far_);
       report_target(aim, moves);
       if (moves == 0) return;
       if (i % 4 == 3) {
         set_.choose(aim.target, 1, false);
-        sweep(rules, kFar);
+        sweep(rules, far_);
       }
     }
   }
@@ -345,7 +346,7 @@ class Phases {
       room.target_lengths = i % 2 == 0 ? Star::Target::kUnit : Star::Target::kPresent;
       room.power = i % 2 == 0 ? 1 : 2;
       set_.choose_if([&](LocalId n) { return !on_interface(n) && shares_hex(n, off); });
-      const std::int64_t around = moves_of([&](LocalId n) { return step_.newton(n, room); }, kFar);
+      const std::int64_t around = moves_of([&](LocalId n) { return step_.newton(n, room); }, far_);
       if (moves == 0 && around == 0) break;
     }
   }
@@ -395,7 +396,7 @@ class Phases {
       else
         rules.target_lengths = Star::Target::kUnit;  // folds go with edges of very unequal length
       set_.choose(kFolded, i / 2, false);
-      sweep(rules, kFar);
+      sweep(rules, far_);
     }
   }
   [[nodiscard]] StepRules raising_rules(double fidelity) const {
@@ -425,6 +426,7 @@ class Phases {
   Vec3 per_axis_, isotropic_;
   double size_ = 1;           // of a cell at level 0
   double farthest_;           // limit of deviation of the present phase
+  double far_ = kFar;         // length of a move that the neighbours shall hear of
   double floor_;              // quality that no step may fall below
   bool never_folds_ = false;  // no step may fold a hex inside
 };

@@ -131,28 +131,44 @@ class Pillower {
       if (!on_boundary_[at(n)]) continue;
       copy_node(n, items);
       if (rules_.box_sides == 0 && mesh_.box_sides[at(n)] != 0) {
-        const auto left = static_cast<std::uint8_t>(sides_of_layers(items) | sides_of_hexes(n, items));
+        const auto left = static_cast<std::uint8_t>(sides_of_layers(n, items) | sides_of_hexes(n, items));
         result_.mesh.box_sides[at(first_[at(n)])] = left;
         if (!mesh_.exterior.empty() && left != mesh_.box_sides[at(n)]) leave_exterior(n, items, left);
       }
     }
   }
 
-  // The sides of the domain on which an old node has a face of a new hex: on a wrapped side, or where a
-  // wrapped face meets the side in an edge at the node. In meshes that are no lattice a hex may touch a side
-  // in an edge or a node only; the layers around it close over that, and the node lies inside then.
-  [[nodiscard]] std::uint8_t sides_of_layers(std::span<const std::int32_t> items) const {
+  // The sides of the domain on which an old node has a face of a new hex: on a wrapped side, or where the
+  // layer on a wrapped face ends at a side in an edge at the node. In meshes that are no lattice a hex may
+  // touch a side in an edge or a node only; the layers around it close over that, and the node lies inside
+  // then.
+  [[nodiscard]] std::uint8_t sides_of_layers(LocalId node, std::span<const std::int32_t> items) const {
     unsigned sides = 0;
-    for (const std::int32_t item : items) {
-      const LocalId h = item / 8;
-      const auto& at_corner = kCornerFaces[static_cast<std::size_t>(item % 8)];
-      const bool at_layer =
-          std::any_of(at_corner.begin(), at_corner.end(), [&](int g) { return wrapped(h, g); });
-      for (const int f : at_corner)
-        if (at_layer && neighbours_[at(h)][static_cast<std::size_t>(f)] == kNone)
-          sides |= face_sides(mesh_, h, f);
-    }
+    for (const std::int32_t item : items)
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
+        const HexFace face{item / 8, f};
+        if (neighbours_[at(face.hex)][static_cast<std::size_t>(f)] != kNone) continue;
+        const auto nodes = face_nodes(mesh_, face);
+        const auto v = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+        if (wrapped(face.hex, f) || layer_at(face, v).hex != kNone ||
+            layer_at(face, (v + 3) % 4).hex != kNone)
+          sides |= face_sides(mesh_, face.hex, f);
+      }
     return static_cast<std::uint8_t>(sides);
+  }
+  // The wrapped face on which a layer ends at an edge of a face of the boundary that is not wrapped; hex:
+  // kNone when there is none. It may be one of the same hex or of a hex of the same set farther around the
+  // edge.
+  [[nodiscard]] HexFace layer_at(HexFace face, std::size_t edge) const {
+    if (label_[at(face.hex)] < 0) return {kNone, 0};
+    const auto nodes = face_nodes(mesh_, face);
+    const LocalId a = nodes[edge], b = nodes[(edge + 1) % 4];
+    for (;;) {
+      face = across_edge(mesh_, face, a, b);
+      if (wrapped(face.hex, face.face)) return face;
+      face = other_side(mesh_, neighbours_, face);
+      if (face.hex == kNone) return face;
+    }
   }
   // Those on which it has a face of an old hex that did not take a copy.
   [[nodiscard]] std::uint8_t sides_of_hexes(LocalId node, std::span<const std::int32_t> items) const {
@@ -252,7 +268,8 @@ class Pillower {
     exterior.hold_of.back() = kNone;
     if (pieces_.empty()) return;
     add_pieces(node, items, all_pieces_);
-    if (all_pieces_.size() == pieces_.size() && sides_of_layers(items) == 0) {  // it takes the node's place
+    if (all_pieces_.size() == pieces_.size() &&
+        sides_of_layers(node, items) == 0) {  // it takes the node's place
       exterior.hold_of.back() = mesh_.exterior.hold_of[at(node)];
       result_.mesh.position.back() = p;
       return;
@@ -339,19 +356,32 @@ class Pillower {
   void follow_exterior() {
     Exterior& exterior = result_.mesh.exterior;
     for (const auto& [hex, face, facet] : mesh_.exterior.faces) {
-      if (start_[at(hex)] == kNone) continue;
       if (wrapped(hex, face)) {
-        exterior.faces.push_back({on_face({hex, face}), kTop, facet});
+        add_part({on_face({hex, face}), kTop}, facet);
         continue;
       }
-      exterior.faces.push_back({start_[at(hex)], face, facet});
-      for (int g = 0; g < 6; ++g)
-        if (const int side = side_over(g, face); side >= 0 && wrapped(hex, g))
-          exterior.faces.push_back({on_face({hex, g}), side, facet});
+      add_part({start_[at(hex)], face}, facet);
+      const auto nodes = face_nodes(mesh_, {hex, face});
+      for (std::size_t v = 0; v < 4; ++v) {
+        const HexFace layer = layer_at({hex, face}, v);
+        if (layer.hex == kNone) continue;
+        const auto base = face_nodes(mesh_, layer);
+        int side = 0;
+        while (!is_edge(base, side, nodes[v], nodes[(v + 1) % 4])) ++side;
+        add_part({on_face(layer), side}, facet);
+      }
     }
     std::sort(exterior.faces.begin(), exterior.faces.end(), [](const ExteriorFace& a, const ExteriorFace& b) {
       return std::pair(a.hex, a.face) < std::pair(b.hex, b.face);
     });
+  }
+
+  void add_part(HexFace face, LocalId facet) {
+    if (face.hex != kNone) result_.mesh.exterior.faces.push_back({face.hex, face.face, facet});
+  }
+  static bool is_edge(const std::array<LocalId, 4>& nodes, int v, LocalId a, LocalId b) {
+    const LocalId p = nodes[static_cast<std::size_t>(v)], q = nodes[static_cast<std::size_t>(v + 1) % 4];
+    return (p == a && q == b) || (p == b && q == a);
   }
 
   // The way from the node into its group or, where an interface runs through the group, along that, to the

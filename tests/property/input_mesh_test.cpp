@@ -88,5 +88,92 @@ TEST(AnyInputMesh, GivesASoundMeshThatKeepsTheDomain) {
   }
 }
 
+TEST(AnyInputMesh, GivesASoundMeshWhereNodesSlideAcrossFacets) {
+  for (std::uint64_t n = 0; n < kCases; ++n) {
+    InputMeshCase input = random_case(n);
+    input.slides = true;
+    expect_sound(input, run_stages(Comm::self(), input), {.volume = 2e-3});
+  }
+}
+
+TEST(AnyInputMesh, GivesASoundMeshWithoutAMaterial) {
+  for (std::uint64_t n = 0; n < kCases; ++n) {
+    const InputMeshCase input = random_case(n);
+    StageOptions options;
+    options.void_material = 0;
+    const StagesResult result = run_stages(Comm::self(), input, options);
+    expect_sound(input, result, {.closed = false});
+    for (const std::int32_t m : result.mesh.material) EXPECT_NE(m, 0);
+  }
+}
+
+TEST(AnyInputMesh, GivesASoundMeshWithSurfacePillows) {
+  for (std::uint64_t n = 0; n < kCases; ++n) {
+    const InputMeshCase input = random_case(n);
+    StageOptions options;
+    options.layers.surfaces = true;
+    expect_sound(input, run_stages(Comm::self(), input, options), {.pillows = 2});
+  }
+}
+
+TEST(AnyInputMesh, GivesASoundMeshWithLayersAroundCurves) {
+  int with_layers = 0;
+  for (std::uint64_t n = 0; n < kCases; ++n) {
+    const InputMeshCase input = random_case(n);
+    StageOptions options;
+    options.layers.curves = true;
+    options.layers.curve_threshold = 0.5;
+    options.layers.curve_layers = 1 + static_cast<int>(n / 5 % 2);
+    const StagesResult result = run_stages(Comm::self(), input, options);
+    with_layers += result.pillows == 2;
+    expect_sound(input, result, {.pillows = result.pillows});
+  }
+  EXPECT_GT(with_layers, 0);
+}
+
+TEST(AnyInputMesh, GivesASoundMeshWithLayersAlongTheBoundary) {
+  for (std::uint64_t n = 0; n < kCases; ++n) {
+    const InputMeshCase input = random_case(n);
+    StageOptions options;
+    options.layers.boundary_layers = 1 + static_cast<int>(n / 5 % 2);
+    expect_sound(
+        input, run_stages(Comm::self(), input, options),
+        {.pillows = 1 + options.layers.boundary_layers, .of_the_box = options.layers.boundary_layers});
+  }
+}
+
+// Interfaces between the blocks of the mesh stay where they are.
+TEST(AnyInputMesh, GivesASoundMeshOfItsBlocksAndAGrain) {
+  for (std::uint64_t n = 1; n < kCases; ++n) {
+    InputMeshCase input = random_case(n);
+    if (input.mesh.name != "sphere-in-cube" && input.mesh.name != "nested") continue;
+    input.blocks = true;
+    expect_sound(input, run_stages(Comm::self(), input), {});
+  }
+}
+
+// With the hexes that stay the mesh is whole again.
+TEST(AnyInputMesh, KeepsBlocksToTheLastBit) {
+  for (std::uint64_t n = 4; n < 4 * kCases; n += 5) {
+    const InputMeshCase input = random_case(n);
+    const Overlay before = input_overlay(Comm::self(), input);
+    const StagesResult result = run_stages(Comm::self(), input);
+    const HexMesh &joined = *result.joined, &kept = *before.kept;
+    EXPECT_EQ(conformity_problem(joined), "") << input.name;
+    std::int64_t found = 0;
+    for (LocalId h = 0; h < joined.size(); ++h) {
+      if (joined.material[at(h)] < input.grains) continue;
+      const auto old = std::lower_bound(kept.hex_id.begin(), kept.hex_id.end(), joined.hex_id[at(h)] / 8);
+      ASSERT_TRUE(old != kept.hex_id.end() && 8 * *old == joined.hex_id[at(h)]) << input.name;
+      const auto k = static_cast<LocalId>(old - kept.hex_id.begin());
+      EXPECT_EQ(joined.corners(h), kept.corners(k)) << input.name;
+      EXPECT_EQ(joined.material[at(h)], kept.material[at(k)]) << input.name;
+      ++found;
+    }
+    EXPECT_EQ(found, kept.size()) << input.name;
+    EXPECT_EQ(joined.size(), kept.size() + result.mesh.size()) << input.name;
+  }
+}
+
 }  // namespace
 }  // namespace sculpt::test

@@ -15,6 +15,7 @@ constexpr GlobalId kNodeFactor = 64;
 constexpr GlobalId kBoxNodeFactor = 2;  // a wrap of the box copies a node once
 constexpr int kBottom = 4, kTop = 5;    // faces of a new hex: towards the old hex, where the old face was
 constexpr double kLongEdge = 2;         // in the shortest edges at a node: longer ones count as this long
+constexpr double kAhead = 0.2;          // cosine: what leads away from a face
 constexpr double kLeastOfWay = 0.25;    // what is left of the way of a copy when it is put on the exterior
 constexpr std::int32_t kOutside = -1;   // stands for the material of what is not meshed
 
@@ -389,7 +390,7 @@ class Pillower {
   Vec3 inwards(LocalId node, LocalId copy) {
     const Vec3 p = mesh_.position[at(node)];
     find_interface(node);
-    if (through_.faces == 0) return rules_.along_edges ? way_along_edges(node) : way_into_group(node);
+    if (through_.faces == 0) return rules_.along_edges ? way_along_edges(node) : way_inside(node);
     if (!through_curve()) {
       result_.on_interface.push_back({copy, false, unit(through_.normal)});
       return way_along_edges(node);
@@ -408,6 +409,34 @@ class Pillower {
     }
     result_.on_interface.push_back({copy, true, ends.size() <= 2 ? unit(tangent) : Vec3{}});
     return (0.5 / static_cast<double>(ends.size())) * sum;
+  }
+
+  // Into the group and away from all its wrapped faces. Where the boundary of an input mesh bends inwards
+  // long hexes on one side may outweigh the others: there the edges that leave the wrapped faces lead away.
+  [[nodiscard]] Vec3 way_inside(LocalId node) {
+    const Vec3 way = way_into_group(node);
+    if (mesh_.exterior.empty()) return way;
+    const double ahead = least_ahead(node, way);
+    if (ahead > kAhead) return way;
+    Vec3 other = way_along_edges(node);
+    if (least_ahead(node, other) <= ahead) return way;
+    const double longest = 0.5 * kLongEdge * mesh_.unit(node) * mesh_.cell_size.x, length = norm(other);
+    return length > longest ? (longest / length) * other : other;
+  }
+  // Smallest cosine between a way and the inward normals of the wrapped faces at the node.
+  [[nodiscard]] double least_ahead(LocalId node, const Vec3& way) const {
+    double least = 1;
+    for (const std::int32_t item : group_)
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
+        if (!wrapped(item / 8, f)) continue;
+        const auto nodes = face_nodes(mesh_, {item / 8, f});
+        const auto v = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+        const Vec3& p = mesh_.position[at(node)];
+        const Vec3 outward = unit(
+            cross(mesh_.position[at(nodes[(v + 1) % 4])] - p, mesh_.position[at(nodes[(v + 3) % 4])] - p));
+        least = std::min(least, -dot(outward, unit(way)));
+      }
+    return least;
   }
 
   // Hexes of an input mesh may be much longer than wide. Towards their middle the copy would be so far ahead

@@ -385,43 +385,9 @@ class Pillower {
     return (p == a && q == b) || (p == b && q == a);
   }
 
-  // Where a facet stayed whole there is a layer on it already. Interfaces run through that, and the edges at
-  // their nodes are as long as ever: the copy goes no deeper than those beside it.
-  Vec3 inwards(LocalId node, LocalId copy) {
-    Vec3 way = way_of(node, copy);
-    if (mesh_.exterior.empty() || rules_.box_sides == 0) return way;
-    for (int round = 0; round < 2; ++round)
-      for (const std::int32_t item : group_)
-        for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
-          if (!wrapped(item / 8, f)) continue;
-          const Vec3 inward = -outward_at(node, {item / 8, f});
-          const double most = 0.5 * dot(edge_off(item, f), inward), depth = dot(way, inward);
-          if (most > 0 && depth > most) way += (most - depth) * inward;
-        }
-    return way;
-  }
-  // Unit normal of a face at one of its nodes.
-  [[nodiscard]] Vec3 outward_at(LocalId node, HexFace face) const {
-    const auto nodes = face_nodes(mesh_, face);
-    const auto v = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
-    const Vec3& p = mesh_.position[at(node)];
-    return unit(
-        cross(mesh_.position[at(nodes[(v + 1) % 4])] - p, mesh_.position[at(nodes[(v + 3) % 4])] - p));
-  }
-  // The edge at a corner of a hex that is not in a face there.
-  [[nodiscard]] Vec3 edge_off(std::int32_t item, int face) const {
-    const Hex& hex = mesh_.hexes[at(item / 8)];
-    const auto& in_face = kFaces[static_cast<std::size_t>(face)];
-    for (const int c : kCornerNeighbours[static_cast<std::size_t>(item % 8)])
-      if (std::find(in_face.begin(), in_face.end(), c) == in_face.end())
-        return mesh_.position[at(hex[static_cast<std::size_t>(c)])] -
-               mesh_.position[at(hex[static_cast<std::size_t>(item % 8)])];
-    return {};
-  }
-
   // The way from the node into its group or, where an interface runs through the group, along that, to the
   // middle of the hexes, faces or edges there.
-  Vec3 way_of(LocalId node, LocalId copy) {
+  Vec3 inwards(LocalId node, LocalId copy) {
     const Vec3 p = mesh_.position[at(node)];
     find_interface(node);
     if (through_.faces == 0) return rules_.along_edges ? way_along_edges(node) : way_inside(node);
@@ -452,18 +418,10 @@ class Pillower {
     if (mesh_.exterior.empty()) return way;
     const double ahead = least_ahead(node, way);
     if (ahead > kAhead) return way;
-    Vec3 best = way, normals;
-    for (const std::int32_t item : group_)
-      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)])
-        if (wrapped(item / 8, f)) normals += -outward_at(node, {item / 8, f});
-    double most = ahead;
-    for (const Vec3& other : {way_along_edges(node), norm(way) * unit(normals)})
-      if (const double a = least_ahead(node, other); a > most) {
-        most = a;
-        best = other;
-      }
-    const double longest = 0.5 * kLongEdge * mesh_.unit(node) * mesh_.cell_size.x, length = norm(best);
-    return length > longest ? (longest / length) * best : best;
+    const Vec3 other = way_along_edges(node);
+    if (least_ahead(node, other) <= ahead) return way;
+    const double longest = 0.5 * kLongEdge * mesh_.unit(node) * mesh_.cell_size.x, length = norm(other);
+    return length > longest ? (longest / length) * other : other;
   }
   // Smallest cosine between a way and the inward normals of the wrapped faces at the node.
   [[nodiscard]] double least_ahead(LocalId node, const Vec3& way) const {
@@ -471,7 +429,12 @@ class Pillower {
     for (const std::int32_t item : group_)
       for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
         if (!wrapped(item / 8, f)) continue;
-        least = std::min(least, -dot(outward_at(node, {item / 8, f}), unit(way)));
+        const auto nodes = face_nodes(mesh_, {item / 8, f});
+        const auto v = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+        const Vec3& p = mesh_.position[at(node)];
+        const Vec3 outward = unit(
+            cross(mesh_.position[at(nodes[(v + 1) % 4])] - p, mesh_.position[at(nodes[(v + 3) % 4])] - p));
+        least = std::min(least, -dot(outward, unit(way)));
       }
     return least;
   }

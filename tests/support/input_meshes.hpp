@@ -19,9 +19,9 @@ struct InputMeshCase {
   WholeMesh mesh;
   int grains = 3;  // materials 0 .. grains - 1
   std::uint64_t seed = 1;
-  bool pure = false;               // the material of a cell is that of its centre
-  std::vector<std::int32_t> keep;  // indices of the blocks that stay as they are
-  bool blocks = false;             // materials are the blocks and a grain 0 in the middle
+  bool pure = false;                 // the material of a cell is that of its centre
+  std::vector<std::int32_t> keep{};  // indices of the blocks that stay as they are
+  bool blocks = false;               // materials are the blocks and a grain 0 in the middle
   double feature_angle = 135;
   bool slides = false;
   std::uint64_t dealt = 7;  // seed of the partition

@@ -13,7 +13,7 @@
 namespace sculpt::test {
 namespace {
 
-constexpr std::uint64_t kCases = 10;
+constexpr std::uint64_t kCases = 20;
 
 std::uint64_t seed() {
   const char* given = std::getenv("SCULPT_TEST_SEED");
@@ -93,7 +93,7 @@ TEST(AnyInputMesh, GivesASoundMeshWhereNodesSlideAcrossFacets) {
   for (std::uint64_t n = 0; n < kCases; ++n) {
     InputMeshCase input = random_case(n);
     input.slides = true;
-    expect_sound(input, run_stages(Comm::self(), input), {.volume = 0.02});
+    expect_sound(input, run_stages(Comm::self(), input), {.volume = 0.03});
   }
   for (std::uint64_t n = 0; n < 3; ++n) {
     InputMeshCase input;
@@ -121,7 +121,7 @@ TEST(AnyInputMesh, GivesASoundMeshWithSurfacePillows) {
     const InputMeshCase input = random_case(n);
     StageOptions options;
     options.layers.surfaces = true;
-    expect_sound(input, run_stages(Comm::self(), input, options), {.pillows = 2});
+    expect_sound(input, run_stages(Comm::self(), input, options), {.pillows = 2, .least = 0.1});
   }
 }
 
@@ -146,9 +146,10 @@ TEST(AnyInputMesh, GivesASoundMeshWithLayersAlongTheBoundary) {
     StageOptions options;
     // Kept blocks with one layer only: where the boundary bends inwards more do not always become valid.
     options.layers.boundary_layers = input.keep.empty() ? 1 + static_cast<int>(n / 5 % 2) : 1;
-    expect_sound(
-        input, run_stages(Comm::self(), input, options),
-        {.pillows = 1 + options.layers.boundary_layers, .of_the_box = options.layers.boundary_layers});
+    expect_sound(input, run_stages(Comm::self(), input, options),
+                 {.pillows = 1 + options.layers.boundary_layers,
+                  .of_the_box = options.layers.boundary_layers,
+                  .least = 0.1});
   }
 }
 
@@ -158,13 +159,14 @@ TEST(AnyInputMesh, GivesASoundMeshOfItsBlocksAndAGrain) {
     InputMeshCase input = random_case(n);
     if (input.mesh.name != "sphere-in-cube" && input.mesh.name != "nested") continue;
     input.blocks = true;
+    input.keep.clear();
     expect_sound(input, run_stages(Comm::self(), input), {});
   }
 }
 
 // With the hexes that stay the mesh is whole again.
 TEST(AnyInputMesh, KeepsBlocksToTheLastBit) {
-  for (std::uint64_t n = 4; n < 4 * kCases; n += 5) {
+  for (std::uint64_t n = 4; n < 2 * kCases; n += 5) {
     const InputMeshCase input = random_case(n);
     const Overlay before = input_overlay(Comm::self(), input);
     const StagesResult result = run_stages(Comm::self(), input);

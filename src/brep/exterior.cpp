@@ -117,6 +117,8 @@ class ExteriorFinder {
       facet.corner[v] = cells_.position[at(nodes.node[v])];
       facet.node[v] = cells_.node_id[at(nodes.node[v])];
     }
+    facet.cell = cells_.hex_id[at(nodes.cell)];
+    facet.face = nodes.face;
     facet.surface = inside ? kInside : 0;
     out_.facets.push_back(facet);
     facets_.push_back(nodes);

@@ -19,6 +19,35 @@ constexpr std::array<std::uint64_t, 8> kBlock = [] {
   return touching;
 }();
 
+// The cells at an edge a-b of a face of the boundary, by their places in the ring; the last one in `last`.
+std::uint64_t cells_at_edge(const HexMesh& mesh, const FaceNeighbours& neighbours, const Ring& ring,
+                            HexFace face, LocalId a, LocalId b, LocalId& last) {
+  std::uint64_t cells = 0;
+  for (; face.hex != kNone; face = other_side(mesh, neighbours, across_edge(mesh, face, a, b))) {
+    last = face.hex;
+    for (int c = 0; c < ring.size; ++c)
+      if (ring.cell[static_cast<std::size_t>(c)] == face.hex) cells |= std::uint64_t{1} << c;
+  }
+  return cells;
+}
+
+void find_edges(const HexMesh& mesh, const FaceNeighbours& neighbours, std::span<const std::int32_t> items,
+                LocalId node, Ring& ring) {
+  for (const std::int32_t item : items)
+    for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
+      const HexFace face{item / 8, f};
+      if (neighbours[at(face.hex)][static_cast<std::size_t>(f)] != kNone) continue;
+      const auto nodes = face_nodes(mesh, face);
+      const auto v = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+      for (const std::size_t end : {(v + 1) % 4, (v + 3) % 4}) {
+        LocalId last = kNone;
+        const std::uint64_t cells = cells_at_edge(mesh, neighbours, ring, face, node, nodes[end], last);
+        if (std::popcount(cells) < 3 || last < face.hex) continue;  // met from the other end
+        if (ring.edges < Ring::kMost) ring.at_edge[static_cast<std::size_t>(ring.edges++)] = cells;
+      }
+    }
+}
+
 }  // namespace
 
 Ring ring_of(const HexMesh& mesh, const FaceNeighbours& neighbours, const NodeHexes& around, LocalId node) {
@@ -44,6 +73,7 @@ Ring ring_of(const HexMesh& mesh, const FaceNeighbours& neighbours, const NodeHe
           ring.touching[j] |= std::uint64_t{1} << i;
         }
     }
+  if (mesh.lattice[0] == 0) find_edges(mesh, neighbours, items, node, ring);
   return ring;
 }
 

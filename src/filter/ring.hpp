@@ -14,6 +14,10 @@ struct Ring {
   int size = 0;
   std::array<LocalId, kMost> cell;
   std::array<std::uint64_t, kMost> touching;  // cells sharing a face at the node with this one
+  // Around the node's edges on the boundary of the domain: their cells, where there are three or more. Boxes
+  // have no such edges, and meshes with an exterior have them where it bends inwards, for one.
+  int edges = 0;
+  std::array<std::uint64_t, kMost> at_edge;
 
   [[nodiscard]] std::uint64_t all() const {
     return size == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << size) - 1;
@@ -32,7 +36,9 @@ struct Ring {
     return reached == set;
   }
 
-  // Whether every material's cells and their complement are connected. material: of each cell of the ring.
+  // Whether every material's cells and their complement are connected, and its cells at every edge of the
+  // boundary: what touches the boundary in an edge only, between cells of one material, leaves no room for
+  // layers there. material: of each cell of the ring.
   [[nodiscard]] bool manifold(std::span<const std::int32_t> material) const {
     std::uint64_t left = all();
     while (left != 0) {
@@ -44,6 +50,8 @@ struct Ring {
       }
       left &= ~same;
       if (!connected(same) || !connected(all() & ~same)) return false;
+      for (int e = 0; e < edges; ++e)
+        if (!connected(same & at_edge[static_cast<std::size_t>(e)])) return false;
     }
     return true;
   }

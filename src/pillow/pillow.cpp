@@ -15,6 +15,7 @@ constexpr GlobalId kNodeFactor = 64;
 constexpr GlobalId kBoxNodeFactor = 2;  // a wrap of the box copies a node once
 constexpr int kBottom = 4, kTop = 5;    // faces of a new hex: towards the old hex, where the old face was
 constexpr double kLongEdge = 2;         // in the shortest edges at a node: longer ones count as this long
+constexpr double kAhead = 0.2;          // cosine: what leads away from a face
 constexpr double kLeastOfWay = 0.25;    // what is left of the way of a copy when it is put on the exterior
 constexpr std::int32_t kOutside = -1;   // stands for the material of what is not meshed
 
@@ -155,10 +156,9 @@ class Pillower {
         if (wrapped(h, f)) continue;
         const auto nodes = face_nodes(mesh_, {h, f});
         const auto v = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
-        for (const LocalId end : {nodes[(v + 1) % 4], nodes[(v + 3) % 4]}) {
-          const bool at_layer = wrapped(h, across_edge(mesh_, {h, f}, node, end).face);
-          rim_.push_back({end, corner, sides, at_layer});
-        }
+        for (const std::size_t edge : {v, (v + 3) % 4})
+          rim_.push_back(
+              {nodes[edge == v ? (v + 1) % 4 : edge], corner, sides, layer_at({h, f}, edge).hex != kNone});
       }
     }
     for (const Rim& one : rim_) {
@@ -169,6 +169,21 @@ class Pillower {
       if (!closed) left |= one.sides;
     }
     return static_cast<std::uint8_t>(left);
+  }
+
+  // The wrapped face on which a layer ends at an edge of a face of the boundary that is not wrapped; hex:
+  // kNone when there is none. It may be one of the same hex or of a hex of the same set farther around the
+  // edge.
+  [[nodiscard]] HexFace layer_at(HexFace face, std::size_t edge) const {
+    if (label_[at(face.hex)] < 0) return {kNone, 0};
+    const auto nodes = face_nodes(mesh_, face);
+    const LocalId a = nodes[edge], b = nodes[(edge + 1) % 4];
+    for (;;) {
+      face = across_edge(mesh_, face, a, b);
+      if (wrapped(face.hex, face.face)) return face;
+      face = other_side(mesh_, neighbours_, face);
+      if (face.hex == kNone) return face;
+    }
   }
 
   // One copy for every face-connected group of equally labelled hexes at the node that has a wrapped face
@@ -352,19 +367,32 @@ class Pillower {
   void follow_exterior() {
     Exterior& exterior = result_.mesh.exterior;
     for (const auto& [hex, face, facet] : mesh_.exterior.faces) {
-      if (start_[at(hex)] == kNone) continue;
       if (wrapped(hex, face)) {
-        exterior.faces.push_back({on_face({hex, face}), kTop, facet});
+        add_part({on_face({hex, face}), kTop}, facet);
         continue;
       }
-      exterior.faces.push_back({start_[at(hex)], face, facet});
-      for (int g = 0; g < 6; ++g)
-        if (const int side = side_over(g, face); side >= 0 && wrapped(hex, g))
-          exterior.faces.push_back({on_face({hex, g}), side, facet});
+      add_part({start_[at(hex)], face}, facet);
+      const auto nodes = face_nodes(mesh_, {hex, face});
+      for (std::size_t v = 0; v < 4; ++v) {
+        const HexFace layer = layer_at({hex, face}, v);
+        if (layer.hex == kNone) continue;
+        const auto base = face_nodes(mesh_, layer);
+        int side = 0;
+        while (!is_edge(base, side, nodes[v], nodes[(v + 1) % 4])) ++side;
+        add_part({on_face(layer), side}, facet);
+      }
     }
     std::sort(exterior.faces.begin(), exterior.faces.end(), [](const ExteriorFace& a, const ExteriorFace& b) {
       return std::pair(a.hex, a.face) < std::pair(b.hex, b.face);
     });
+  }
+
+  void add_part(HexFace face, LocalId facet) {
+    if (face.hex != kNone) result_.mesh.exterior.faces.push_back({face.hex, face.face, facet});
+  }
+  static bool is_edge(const std::array<LocalId, 4>& nodes, int v, LocalId a, LocalId b) {
+    const LocalId p = nodes[static_cast<std::size_t>(v)], q = nodes[static_cast<std::size_t>(v + 1) % 4];
+    return (p == a && q == b) || (p == b && q == a);
   }
 
   // The way from the node into its group or, where an interface runs through the group, along that, to the
@@ -372,7 +400,7 @@ class Pillower {
   Vec3 inwards(LocalId node, LocalId copy) {
     const Vec3 p = mesh_.position[at(node)];
     find_interface(node);
-    if (through_.faces == 0) return rules_.along_edges ? way_along_edges(node) : way_into_group(node);
+    if (through_.faces == 0) return rules_.along_edges ? way_along_edges(node) : way_inside(node);
     if (!through_curve()) {
       result_.on_interface.push_back({copy, false, unit(through_.normal)});
       return way_along_edges(node);
@@ -391,6 +419,34 @@ class Pillower {
     }
     result_.on_interface.push_back({copy, true, ends.size() <= 2 ? unit(tangent) : Vec3{}});
     return (0.5 / static_cast<double>(ends.size())) * sum;
+  }
+
+  // Into the group and away from all its wrapped faces. Where the boundary of an input mesh bends inwards
+  // long hexes on one side may outweigh the others: there the edges that leave the wrapped faces lead away.
+  [[nodiscard]] Vec3 way_inside(LocalId node) {
+    const Vec3 way = way_into_group(node);
+    if (mesh_.exterior.empty()) return way;
+    const double ahead = least_ahead(node, way);
+    if (ahead > kAhead) return way;
+    const Vec3 other = way_along_edges(node);
+    if (least_ahead(node, other) <= ahead) return way;
+    const double longest = 0.5 * kLongEdge * mesh_.unit(node) * mesh_.cell_size.x, length = norm(other);
+    return length > longest ? (longest / length) * other : other;
+  }
+  // Smallest cosine between a way and the inward normals of the wrapped faces at the node.
+  [[nodiscard]] double least_ahead(LocalId node, const Vec3& way) const {
+    double least = 1;
+    for (const std::int32_t item : group_)
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
+        if (!wrapped(item / 8, f)) continue;
+        const auto nodes = face_nodes(mesh_, {item / 8, f});
+        const auto v = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+        const Vec3& p = mesh_.position[at(node)];
+        const Vec3 outward = unit(
+            cross(mesh_.position[at(nodes[(v + 1) % 4])] - p, mesh_.position[at(nodes[(v + 3) % 4])] - p));
+        least = std::min(least, -dot(outward, unit(way)));
+      }
+    return least;
   }
 
   // Hexes of an input mesh may be much longer than wide. Towards their middle the copy would be so far ahead

@@ -204,6 +204,7 @@ struct Meshed {
   HexMesh mesh;
   int pillows = 1;  // how often pillow() was called
   SidePlan sides;   // what its side sets will be
+  std::vector<ExteriorPart> parts;
   std::vector<NodeSetMembers> node_sets;
   InterfaceTrack track;  // empty in a mesh that keeps the shape of the cells
 };
@@ -246,8 +247,9 @@ Meshed stair_mesh(const Comm& comm, const Deck& deck, const Overlay& overlay,
   stages.end("generate hexes");
   log.line("(9/9) begin smoothing...");
   std::vector<NodeSetMembers> node_sets = carried_node_sets(overlay.sets, mesh.mesh, mesh.node_factor);
+  std::vector<ExteriorPart> parts = exterior_parts(mesh.mesh);
   if (overlay.kept) join_hexes(comm, mesh.mesh, *overlay.kept, mesh.node_factor, kHexFactor);
-  return {std::move(mesh.mesh), 1, {}, std::move(node_sets), {}};
+  return {std::move(mesh.mesh), 1, {}, std::move(parts), std::move(node_sets), {}};
 }
 
 Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contour& shape,
@@ -285,12 +287,14 @@ Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contou
   correct_thickened_volumes(deck, layered.mesh, layered.geometry, wanted_volumes, log, stages);
   for (GlobalId& node : track.node) node *= layered.node_factor;
   std::vector<NodeSetMembers> node_sets = carried_node_sets(overlay.sets, layered.mesh, layered.node_factor);
+  std::vector<ExteriorPart> parts = exterior_parts(layered.mesh);
   if (overlay.kept) {
     GlobalId hex_factor = 1;
     for (int i = 0; i < layered.pillows; ++i) hex_factor *= kHexFactor;
     join_hexes(comm, layered.mesh, std::move(*overlay.kept), layered.node_factor, hex_factor);
   }
-  return {std::move(layered.mesh), layered.pillows, {}, std::move(node_sets), std::move(track)};
+  return {std::move(layered.mesh), layered.pillows,      {},
+          std::move(parts),        std::move(node_sets), std::move(track)};
 }
 
 Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
@@ -302,6 +306,7 @@ Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
   overlay.fractions = {};
   overlay.around.reset();
   SidePlan sides = generate_geometry(comm, deck, overlay, shape.faces, drop, log);
+  share_exterior_faces(overlay.cells, sides);
   stages.end("generate geometry");
   log.line("(7/9) generating buffer hexes...");
   log.line("(8/9) generating interior hexes...");
@@ -314,7 +319,7 @@ Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
 // The faces of the mesh that belong to side sets.
 std::vector<SideFace> side_set_faces(const Deck& deck, const Meshed& meshed, const Log& log) {
   if (deck.gen_sidesets != kSidesetsOff) log.line("building sidesets...");
-  return side_faces(meshed.sides, meshed.mesh, meshed.pillows);
+  return side_faces(meshed.sides, meshed.mesh, meshed.pillows, meshed.parts);
 }
 
 // Takes hexes below remove_bad out of the mesh, and their faces out of the side sets.

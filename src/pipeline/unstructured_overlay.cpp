@@ -43,22 +43,6 @@ PartitionMethod partition_method(const Deck& deck) {
 // Whether materials come from shapes or voxels; otherwise from the element variables of the mesh.
 bool has_geometry(const Deck& deck) { return !deck.input_spn.empty() || !deck.diatom_file.empty(); }
 
-// Lengths at a node count in its shortest edge.
-void set_units(HexMesh& cells) {
-  std::vector<double> shortest(cells.position.size(), std::numeric_limits<double>::infinity());
-  for (const Hex& hex : cells.hexes)
-    for (std::size_t c = 0; c < 8; ++c)
-      for (const int d : kCornerNeighbours[c]) {
-        const LocalId n = hex[c];
-        shortest[at(n)] =
-            std::min(shortest[at(n)],
-                     norm(cells.position[at(hex[static_cast<std::size_t>(d)])] - cells.position[at(n)]));
-      }
-  cells.node_unit.clear();
-  for (const double s : shortest) cells.node_unit.push_back(static_cast<float>(s / cells.cell_size.x));
-  cells.node_exchange.copy_to_ghosts(cells.node_unit);  // the outermost ghosts lack cells
-}
-
 class InputMeshOverlay {
  public:
   InputMeshOverlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages)
@@ -294,6 +278,21 @@ class InputMeshOverlay {
 };
 
 }  // namespace
+
+void set_units(HexMesh& cells) {
+  std::vector<double> shortest(cells.position.size(), std::numeric_limits<double>::infinity());
+  for (const Hex& hex : cells.hexes)
+    for (std::size_t c = 0; c < 8; ++c)
+      for (const int d : kCornerNeighbours[c]) {
+        const LocalId n = hex[c];
+        shortest[at(n)] =
+            std::min(shortest[at(n)],
+                     norm(cells.position[at(hex[static_cast<std::size_t>(d)])] - cells.position[at(n)]));
+      }
+  cells.node_unit.clear();
+  for (const double s : shortest) cells.node_unit.push_back(static_cast<float>(s / cells.cell_size.x));
+  cells.node_exchange.copy_to_ghosts(cells.node_unit);  // the outermost ghosts lack cells
+}
 
 bool has_input_mesh(const Deck& deck) { return !deck.input_mesh.empty() || !deck.input_mesh_pamgen.empty(); }
 

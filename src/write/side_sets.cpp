@@ -214,13 +214,25 @@ std::vector<FaceOnSide> faces_towards_images(const HexMesh& mesh) {
 
 class Finder {
  public:
-  Finder(const HexMesh& mesh, int stages)
-      : mesh_(mesh), stages_(stages), periodic_faces_(faces_towards_images(mesh)) {
+  Finder(const HexMesh& mesh, int stages, std::span<const ExteriorPart> parts)
+      : mesh_(mesh), stages_(stages), parts_(parts), periodic_faces_(faces_towards_images(mesh)) {
     for (int s = 0; s < stages; ++s) family_ *= kHexFactor;
+  }
+
+  // The parts of a cell's face on the exterior; false when this rank has none.
+  bool add_parts(const SidePlan::Item& item) {
+    const auto [first, last] =
+        std::equal_range(parts_.begin(), parts_.end(), ExteriorPart{item.cell, item.at, 0, 0},
+                         [](const ExteriorPart& a, const ExteriorPart& b) {
+                           return std::pair(a.cell, a.at) < std::pair(b.cell, b.at);
+                         });
+    for (auto part = first; part != last; ++part) add(item.set, part->hex, part->face);
+    return first != last;
   }
 
   // The hexes in which the face of a cell ended up.
   void add_inner(const SidePlan::Item& item) {
+    if (add_parts(item)) return;
     faces_.assign(1, {item.cell, item.at});
     GlobalId family = family_;
     for (int s = 0; s < stages_; ++s) {
@@ -229,11 +241,7 @@ class Finder {
       for (const auto& [hex, face] : faces_) follow(hex, face, family);
       faces_.swap(next_);
     }
-    for (const auto& [id, face] : faces_) {
-      const LocalId hex = find(id);
-      check(hex != kNone, "a hex of a side set is missing");
-      out_.push_back({item.set, hex, face});
-    }
+    for (const auto& [id, face] : faces_) add(item.set, id, face);
   }
 
   // Faces of all hexes of a cell on one side of the box.
@@ -252,6 +260,11 @@ class Finder {
   std::vector<SideFace> done() { return std::move(out_); }
 
  private:
+  void add(std::int64_t set, GlobalId id, int face) {
+    const LocalId hex = find(id);
+    check(hex != kNone, "a hex of a side set is missing");
+    out_.push_back({set, hex, face});
+  }
   [[nodiscard]] LocalId find(GlobalId id) const {
     const auto it = std::lower_bound(mesh_.hex_id.begin(), mesh_.hex_id.end(), id);
     return it == mesh_.hex_id.end() || *it != id ? kNone : static_cast<LocalId>(it - mesh_.hex_id.begin());
@@ -274,6 +287,7 @@ class Finder {
 
   const HexMesh& mesh_;
   int stages_;
+  std::span<const ExteriorPart> parts_;
   std::vector<FaceOnSide> periodic_faces_;
   GlobalId family_ = 1;  // ids per cell
   struct HexFace {
@@ -302,10 +316,53 @@ SidePlan plan_side_sets(const Comm& comm, const HexMesh& cells, const FaceNeighb
   }
 }
 
-std::vector<SideFace> side_faces(const SidePlan& plan, const HexMesh& mesh, int stages) {
-  Finder finder(mesh, stages);
+void share_exterior_faces(const HexMesh& cells, SidePlan& plan) {
+  using G = GhostExchange;
+  std::vector<std::vector<SidePlan::Item>> of_cell(cells.hexes.size());
+  for (const SidePlan::Item& item : plan.inner) {
+    const auto found = std::lower_bound(cells.hex_id.begin(), cells.hex_id.end(), item.cell);
+    const auto c = static_cast<LocalId>(found - cells.hex_id.begin());
+    if (found != cells.hex_id.end() && *found == item.cell && cells.exterior.facet_at(c, item.at) != kNone)
+      of_cell[at(c)].push_back(item);
+  }
+  cells.hex_exchange.send_records(
+      [&](LocalId c, std::vector<char>& bytes) {
+        if (of_cell[at(c)].empty()) return;
+        G::append(bytes, static_cast<std::int32_t>(of_cell[at(c)].size()));
+        for (const SidePlan::Item& item : of_cell[at(c)]) {
+          G::append(bytes, item.at);
+          G::append(bytes, item.set);
+        }
+      },
+      [&](LocalId ghost, const char* from) {
+        std::int32_t count;
+        G::take(from, count);
+        for (std::int32_t i = 0; i < count; ++i) {
+          SidePlan::Item item{cells.hex_id[at(ghost)], 0, 0};
+          G::take(from, item.at);
+          G::take(from, item.set);
+          plan.beside.push_back(item);
+        }
+        return from;
+      });
+}
+
+std::vector<ExteriorPart> exterior_parts(const HexMesh& mesh) {
+  std::vector<ExteriorPart> parts;
+  for (const ExteriorFace& f : mesh.exterior.faces) {
+    const Facet& facet = mesh.exterior.facets[at(f.facet)];
+    if (mesh.layer[at(f.hex)] == 0) parts.push_back({facet.cell, facet.face, mesh.hex_id[at(f.hex)], f.face});
+  }
+  std::sort(parts.begin(), parts.end());
+  return parts;
+}
+
+std::vector<SideFace> side_faces(const SidePlan& plan, const HexMesh& mesh, int stages,
+                                 std::span<const ExteriorPart> parts) {
+  Finder finder(mesh, stages, parts);
   for (const SidePlan::Item& item : plan.inner) finder.add_inner(item);
   for (const SidePlan::Item& item : plan.box) finder.add_box(item);
+  for (const SidePlan::Item& item : plan.beside) finder.add_parts(item);
   return finder.done();
 }
 

@@ -5,9 +5,11 @@
 
 #include "pipeline/interface_geometry.hpp"
 #include "pipeline/layers.hpp"
+#include "sculpt/brep/exterior.hpp"
 #include "sculpt/contour/contour.hpp"
 #include "sculpt/distribute/cartesian.hpp"
 #include "sculpt/mesh/colour.hpp"
+#include "sculpt/mesh/edit.hpp"
 #include "sculpt/pillow/pillow.hpp"
 #include "sculpt/vfrac/fractions.hpp"
 #include "support/mesh_checks.hpp"
@@ -113,6 +115,11 @@ StagesResult run_stages(const Comm& comm, Overlay o, bool pure, const StageOptio
   (void)filter_materials(cells, o.fractions, neighbours, around, options.filter);
   note("filter", cells);
   follow_assignment(o.fractions, cells.material);
+  if (!o.is_block.empty())
+    hold_inside(comm, cells, neighbours, cells.exterior.slides, [&](LocalId a, LocalId b) {
+      const std::int32_t m = cells.material[at(a)], n = cells.material[at(b)];
+      return m != n && o.is_block[at(m)] != 0 && o.is_block[at(n)] != 0;
+    });
 
   const Interfaces faces = trace_interfaces(cells, neighbours);
   for (const InterfaceQuad& q : faces.quads) result.quads += cells.layer[at(q.cell[0])] == 0;
@@ -133,6 +140,7 @@ StagesResult run_stages(const Comm& comm, Overlay o, bool pure, const StageOptio
     result.cells += cells.layer[c] == 0 && !drop[c];
   }
   result.cells = comm.sum(result.cells);
+  keep_whole(comm, cells.exterior, cells, faces);
   LayeredMesh layered = add_layers(comm, cells, neighbours, drop, faces, deviation_weights(cells, faces),
                                    options.layers, Log());
   note("pillow", layered.mesh);
@@ -148,6 +156,13 @@ StagesResult run_stages(const Comm& comm, Overlay o, bool pure, const StageOptio
     add_curve_layers(comm, layered, options.layers,
                      options.layers.smooth_after ? smooth : std::function<void(LayeredMesh&)>{}, Log());
     note("pillow curves", layered.mesh);
+  }
+  if (o.kept) {
+    result.joined = layered.mesh;
+    GlobalId hex_factor = 1;
+    for (int i = 0; i < layered.pillows; ++i) hex_factor *= kHexFactor;
+    join_hexes(comm, *result.joined, *o.kept, layered.node_factor, hex_factor);
+    note("join", *result.joined);
   }
   result.pillows = layered.pillows;
   result.geometry = std::move(layered.geometry);

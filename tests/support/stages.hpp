@@ -1,6 +1,7 @@
 #pragma once
 // The stages from the overlay grid to the smooth mesh, as the program runs them, on made-up input and in
 // memory.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ namespace sculpt::test {
 struct Overlay {
   HexMesh cells;
   Fractions fractions;
+  std::optional<HexMesh> kept{};         // hexes of an input mesh that stay as they are
+  std::vector<std::uint8_t> is_block{};  // per material: 1 = its interfaces with others that are 1 stay
 };
 [[nodiscard]] Overlay overlay(const Comm& comm, const Case& input, int layers = 2);
 [[nodiscard]] Overlay overlay(const Case& input);  // one rank alone
@@ -53,6 +56,7 @@ struct StageChecksum {
 
 struct StagesResult {
   HexMesh mesh;
+  std::optional<HexMesh> joined;  // with the hexes that stay as they are
   int pillows = 0;
   Geometry geometry;       // of its interface nodes
   std::int64_t cells = 0;  // that are part of the mesh, all ranks

@@ -1,7 +1,8 @@
 #pragma once
 // One material per cell, such that every interface is manifold and, where asked for, free of features too
 // small for good elements (the report, section 2.7). A node is manifold when, for every material at it, the
-// cells of the material and the other cells each form one face-connected set.
+// cells of the material and the other cells each form one face-connected set; and where it is on the boundary
+// of the domain, the cells of a material at each edge there, too.
 #include <cstdint>
 #include <functional>
 #include <optional>

@@ -17,9 +17,11 @@ struct Facet {
   std::array<Vec3, 4> corner;  // outward by the right-hand rule, from the one with the smallest node id on:
                                // triangles 0 1 2 and 0 2 3
   std::array<GlobalId, 4> node{};  // ids of the corners in the overlay mesh
-  std::int32_t surface = 0;        // the same on all ranks
-  std::uint8_t kept = 0;           // 1: beyond it lie cells that stay as they are (input_mesh_blocks)
-  std::uint8_t whole = 0;          // 1: must stay one face of a hex
+  GlobalId cell = 0;               // the face that it is there, of the cell that is not kept
+  std::int32_t face = 0;
+  std::int32_t surface = 0;  // the same on all ranks
+  std::uint8_t kept = 0;     // 1: beyond it lie cells that stay as they are (input_mesh_blocks)
+  std::uint8_t whole = 0;    // 1: must stay one face of a hex
 };
 
 // Where a node of the boundary may go.

@@ -35,9 +35,13 @@ struct SidePlan {
     std::int32_t at;  // inner: kFaces index; box: bit number of the BoxSide
     std::int64_t set;
   };
-  std::vector<Item> inner;  // faces towards another material or an unmeshed cell
-  std::vector<Item> box;    // faces on the sides of the box
+  std::vector<Item> inner;   // faces towards another material or an unmeshed cell
+  std::vector<Item> box;     // faces on the sides of the box
+  std::vector<Item> beside;  // faces of ghost cells on an exterior: parts of them may be of owned hexes
 };
+
+// Collective. Fills plan.beside. Comes after the rest of the plan.
+void share_exterior_faces(const HexMesh& cells, SidePlan& plan);
 
 // Collective. gen_sidesets: a value of GenSidesets (deck.hpp); kSidesetsOff gives an empty plan. drop: per
 // cell, 1 = no part of the mesh; all of these have one material that no other cell has. grid: cells per
@@ -48,7 +52,20 @@ struct SidePlan {
                                       const Brep& brep, std::span<const std::uint8_t> drop,
                                       const std::array<GlobalId, 3>& grid, int gen_sidesets);
 
-// Local. The faces of owned hexes of the final mesh, each once. stages: how often pillow() was called.
-[[nodiscard]] std::vector<SideFace> side_faces(const SidePlan& plan, const HexMesh& mesh, int stages);
+// A face of a hex that is a part of a cell's face on the exterior.
+struct ExteriorPart {
+  GlobalId cell;
+  std::int32_t at;  // kFaces index
+  GlobalId hex;
+  std::int32_t face;
+  auto operator<=>(const ExteriorPart&) const = default;
+};
+// Local. Those of owned hexes of a mesh that has its exterior still, ascending.
+[[nodiscard]] std::vector<ExteriorPart> exterior_parts(const HexMesh& mesh);
+
+// Local. The faces of owned hexes of the final mesh, each once. stages: how often pillow() was called. parts:
+// exterior_parts() before the mesh lost its exterior (join_hexes).
+[[nodiscard]] std::vector<SideFace> side_faces(const SidePlan& plan, const HexMesh& mesh, int stages,
+                                               std::span<const ExteriorPart> parts = {});
 
 }  // namespace sculpt

@@ -12,12 +12,13 @@ namespace sculpt {
 namespace {
 
 constexpr GlobalId kNodeFactor = 64;
-constexpr GlobalId kBoxNodeFactor = 2;  // a wrap of the box copies a node once
-constexpr int kBottom = 4, kTop = 5;    // faces of a new hex: towards the old hex, where the old face was
-constexpr double kLongEdge = 2;         // in the shortest edges at a node: longer ones count as this long
-constexpr double kAhead = 0.2;          // cosine: what leads away from a face
-constexpr double kLeastOfWay = 0.25;    // what is left of the way of a copy when it is put on the exterior
-constexpr std::int32_t kOutside = -1;   // stands for the material of what is not meshed
+constexpr GlobalId kBoxNodeFactor = 2;       // a wrap of the box copies a node once
+constexpr GlobalId kExteriorNodeFactor = 4;  // parts of the domain may meet in a node
+constexpr int kBottom = 4, kTop = 5;   // faces of a new hex: towards the old hex, where the old face was
+constexpr double kLongEdge = 2;        // in the shortest edges at a node: longer ones count as this long
+constexpr double kAhead = 0.2;         // cosine: what leads away from a face
+constexpr double kLeastOfWay = 0.25;   // what is left of the way of a copy when it is put on the exterior
+constexpr std::int32_t kOutside = -1;  // stands for the material of what is not meshed
 
 // The interface that runs through a set at one of its nodes.
 struct InterfaceThrough {
@@ -41,7 +42,9 @@ class Pillower {
         label_(label),
         drop_(drop),
         rules_(rules),
-        node_factor_(rules.box_sides != 0 ? kBoxNodeFactor : kNodeFactor),
+        node_factor_(rules.box_sides == 0    ? kNodeFactor
+                     : mesh.exterior.empty() ? kBoxNodeFactor
+                                             : kExteriorNodeFactor),
         kept_layers_(mesh.ghost_layers - 1) {}
 
   Pillowed run(const Comm& comm) {
@@ -272,8 +275,9 @@ class Pillower {
     exterior.hold_of.back() = kNone;
     if (pieces_.empty()) return;
     add_pieces(node, items, all_pieces_);
-    if (all_pieces_.size() == pieces_.size() && !at_whole_face(items)) {  // it takes the node's place
-      exterior.hold_of.back() = mesh_.exterior.hold_of[at(node)];
+    const LocalId of_node = mesh_.exterior.hold_of[at(node)];
+    if (all_pieces_.size() == pieces_.size() && of_node != Exterior::kKept && !at_whole_face(items)) {
+      exterior.hold_of.back() = of_node;  // it takes the node's place
       result_.mesh.position.back() = p;
       return;
     }
@@ -320,11 +324,16 @@ class Pillower {
     const std::size_t n = pieces_.size();
     if (!order(pieces_)) return on_surface(0, n);
     bool flat = true;
+    std::size_t edges = 0, edge = 0;  // between surfaces; the last of them
     for (std::size_t i = 0; i + 1 < n; ++i) {
-      if (facet(i).surface != facet(i + 1).surface) return on_edge(i);
+      if (facet(i).surface != facet(i + 1).surface) {
+        ++edges;
+        edge = i;
+      }
       flat = flat && (pieces_[i].facet == pieces_[i + 1].facet || coplanar(facet(i), facet(i + 1)));
     }
-    if (flat || exterior.slides) return on_surface(0, n);
+    if (edges == 1) return on_edge(edge);
+    if (edges == 0 && (flat || exterior.slides)) return on_surface(0, n);
     if (n % 2 == 1) return on_surface(n / 2, n / 2 + 1);
     const std::size_t middle = n / 2 - 1;
     const bool level =
@@ -336,7 +345,7 @@ class Pillower {
   void leave_exterior(LocalId node, std::span<const std::int32_t> items, std::uint8_t left) {
     const LocalId old = first_[at(node)];
     LocalId& hold = result_.mesh.exterior.hold_of[at(old)];
-    if (hold == kNone || mesh_.exterior.holds[at(hold)].kind == Hold::Kind::kPoint) return;
+    if (hold == kNone || hold == Exterior::kKept) return;
     if (left != 0) {
       patch_.clear();
       for (const std::int32_t item : items)

@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "filter/ring.hpp"
 #include "sculpt/filter/filter.hpp"
+#include "support/fields.hpp"
+#include "support/input_meshes.hpp"
 #include "support/stages.hpp"
 
 namespace sculpt {
@@ -167,6 +171,50 @@ TEST(Ring, ThreeMaterialsNeedConnectedPartsAndRests) {
       << "0 touches itself at an edge";
   EXPECT_TRUE(ring.manifold(std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
   EXPECT_FALSE(ring.manifold(std::vector<std::int32_t>{0, 1, 1, 1, 1, 1, 1, 0}));
+}
+
+// An L of three columns: where they meet three cells are around an edge of the boundary.
+test::WholeMesh bent(std::int64_t height) {
+  test::WholeMesh mesh = test::whole_grid(test::unit_grid({2, 2, height}));
+  std::vector<std::array<GlobalId, 8>> corner;
+  for (std::size_t e = 0; e < mesh.corner.size(); ++e)
+    if (e % 4 != 3) corner.push_back(mesh.corner[e]);
+  mesh.corner = corner;
+  mesh.block.assign(corner.size(), 0);
+  mesh.value.assign(2 * corner.size(), 0);
+  return mesh;
+}
+
+// The middle column: cells of 0 beside it are connected below, but not at the edge where all three meet.
+TEST(ResolveNonManifold, AtEdgesWhereTheBoundaryBendsInwards) {
+  test::WholeMesh mesh = bent(3);
+  std::vector<GlobalId> used;  // nodes of no element go
+  for (const auto& c : mesh.corner) used.insert(used.end(), c.begin(), c.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<Vec3> position;
+  for (const GlobalId n : used) position.push_back(mesh.position[static_cast<std::size_t>(n)]);
+  mesh.position = position;
+  for (auto& c : mesh.corner)
+    for (GlobalId& n : c) n = std::lower_bound(used.begin(), used.end(), n) - used.begin();
+  test::Overlay o;
+  o.cells = test::input_cells(Comm::self(), mesh).cells;
+  const FaceNeighbours neighbours = face_neighbours(o.cells);
+  for (LocalId c = 0; c < o.cells.size(); ++c) {
+    const Vec3 low = o.cells.corners(c)[0];
+    o.fractions.add(low.x == 0 && low.y == 0 && low.z > 0 ? 1 : 0, 1);
+    o.fractions.end_cell();
+  }
+  assign_materials(o.cells, o.fractions, neighbours);
+  EXPECT_FALSE(manifold(o.cells));
+  const NodeHexes around(o.cells);
+  for (LocalId n = 0; n < o.cells.nodes(); ++n) {
+    const Ring ring = ring_of(o.cells, neighbours, around, n);
+    const Vec3& p = o.cells.position[at(n)];
+    EXPECT_EQ(ring.edges, p.x == 1 && p.y == 1 ? (p.z == 0 || p.z == 3 ? 1 : 2) : 0);
+  }
+  EXPECT_GT(resolve(o).manifold_cells, 0);
+  EXPECT_TRUE(manifold(o.cells));
 }
 
 }  // namespace

@@ -231,12 +231,16 @@ class InputMeshOverlay {
     struct Entry {
       GlobalId element;
       std::int32_t face;
+      auto operator<=>(const Entry&) const = default;
     };
     for (const InputMesh::SideSet& set : mesh_.side_sets) {
       sets.side_sets.push_back({set.id, set.name});
       std::vector<Entry> mine;
       for (std::size_t i = 0; i < set.element.size(); ++i) mine.push_back({set.element[i], set.face[i]});
-      for (const Entry& e : comm_.concatenate(mine))
+      std::vector<Entry> all = comm_.concatenate(mine);  // some programs list a face twice
+      std::sort(all.begin(), all.end());
+      all.erase(std::unique(all.begin(), all.end()), all.end());
+      for (const Entry& e : all)
         if (std::binary_search(cells.hex_id.begin(), cells.hex_id.end(), e.element))
           sets.faces.push_back({e.element, e.face, set.id});
     }

@@ -232,6 +232,8 @@ std::vector<Mistake> option_mistakes() {
                    {"'input_mesh_blocks' (line 3 of deck.i)", "'m.g' has no block 8", "only 3 7"}),
       deck_mistake("Refinement", "adapt_type = vfrac_average\n",
                    {"'adapt_type' (line 3 of deck.i)", none, "Cartesian grid"}),
+      deck_mistake("RefinementOfKeptSets", "gen_sidesets = input_mesh\nadapt_type = vfrac_average\n",
+                   {"'adapt_type' (line 4 of deck.i)", "blocks or sets of 'm.g' are to be kept"}),
       deck_mistake("Periodic", "periodic = true\n", {"'periodic' (line 3 of deck.i)", none}),
       deck_mistake("Expansion", "micro_expand = 1\n", {"'micro_expand' (line 3 of deck.i)", none}),
       deck_mistake("SidesOfABox", "gen_sidesets = rve\n",
@@ -378,6 +380,14 @@ TEST_F(IdleOfMeshes, AreTold) {
   EXPECT_NE(none.find("WARNING: there is no input mesh; no effect: feature_angle, exterior_sliding, "
                       "input_mesh_partition, input_mesh_material\n"),
             std::string::npos);
+  const std::string variables = console(
+      "input_mesh = m.g\nadapt_levels = 2\njproc = 1\n"
+      "input_mesh_material = geometry_and_blocks\n");
+  for (const char* words : {"leave no void to the blocks; no effect: input_mesh_material\n",
+                            "WARNING: adapt_type is off; no effect: adapt_levels\n",
+                            "WARNING: the input mesh is no Cartesian grid; no effect: jproc\n"})
+    EXPECT_NE(variables.find(words), std::string::npos) << words;
+  EXPECT_EQ(variables.find("keeps its id"), std::string::npos);
 }
 
 }  // namespace

@@ -294,5 +294,140 @@ TEST_F(InputMeshes, KeepsBlocksAsTheyAre) {
   EXPECT_GT(hexes_of(found), all);
 }
 
+// Layers of hexes between the faces leave their sum as it is.
+TEST_F(InputMeshes, CarriesSetsThroughLayers) {
+  const ExodusMesh m = cylinder_with_sets();
+  write_mesh(m);
+  const RankMesh before = as_written(m);
+  for (const char* more :
+       {"pillow_surfaces = true\n", "pillow_curves = true\npillow_curve_thresh = 0.6\n",
+        "pillow_boundary_layers = 2\n", "stair = full\n", "smooth = no_surface_projections\n"}) {
+    SCOPED_TRACE(more);
+    const RankMesh found = mesh(kMesh + "gen_sidesets = input_mesh\n" + more, 3);
+    for (const auto& set : before.side_sets) {
+      SCOPED_TRACE(set.name);
+      const double area = area_of(before, set);
+      EXPECT_NEAR(area_of(found, set_of(found.side_sets, set.id)), area, 1e-12 * area);
+    }
+    const auto& floor = set_of(found.node_sets, 7);
+    EXPECT_EQ(std::set<std::int32_t>(floor.node.begin(), floor.node.end()),
+              nodes_of(found, set_of(found.side_sets, 1)));
+    EXPECT_EQ(set_of(found.node_sets, 1).node.size(), 9U);
+  }
+}
+
+// The sets of a box as well: its mesh is not taken for a grid then.
+TEST_F(InputMeshes, CarriesSetsOfABox) {
+  const Voxels voxels = grains(6, 5, 5);
+  const ExodusMesh m = exodus_mesh("box", {"--nx", "6", "--ny", "6", "--nz", "6", "--permute", "2", "m.g"});
+  write_mesh(m);
+  const RankMesh found = expect_same(voxels, kMesh + "gen_sidesets = input_mesh\n", {4});
+  for (std::int64_t id = 1; id <= 6; ++id)
+    EXPECT_NEAR(area_of(found, set_of(found.side_sets, id)), 36, 1e-10);
+  EXPECT_EQ(set_of(found.side_sets, 5).name, "zmin");
+  EXPECT_EQ(set_of(found.node_sets, 1).node.size(), 1U);
+  const auto& top = set_of(found.node_sets, 2);
+  EXPECT_EQ(std::set<std::int32_t>(top.node.begin(), top.node.end()),
+            nodes_of(found, set_of(found.side_sets, 6)));
+}
+
+// What other programs write: a face twice or from both sides, in two sets, nodes twice or without a hex; a
+// block with id 0 and one without hexes.
+TEST_F(InputMeshes, CarriesOddSets) {
+  ExodusMesh m = exodus_mesh("cylinder", {"--n", "2", "--layers", "3", "--grains", "2", "m.g"});
+  m.x.push_back(50);  // used by no hex
+  m.y.push_back(0);
+  m.z.push_back(0);
+  const auto last = static_cast<std::int64_t>(m.x.size());
+  const ExodusMesh::SideSet bottom = m.side_sets[0];
+  m.side_sets = {bottom, {9, "again", bottom.element, bottom.side}, {5, "inside", {}, {}}};
+  for (int twice = 0; twice < 2; ++twice) {
+    m.side_sets[1].element.push_back(bottom.element[0]);
+    m.side_sets[1].side.push_back(bottom.side[0]);
+  }
+  for (std::int64_t e = 1; e <= 12; ++e)  // between the first two layers, from both sides
+    for (const std::int64_t side : {6, 5}) {
+      m.side_sets[2].element.push_back(side == 6 ? e : e + 12);
+      m.side_sets[2].side.push_back(side);
+    }
+  m.node_sets = {{3, "odd", {last, 1, 1, 2}}};
+  m.blocks[0].id = 0;
+  m.blocks.push_back({7, "empty", {}});
+  m.variables[0].in_block.push_back(1);
+  m.variables[1].in_block.push_back(1);
+  write_mesh(m);
+  const RankMesh found = expect_same(kMesh + "gen_sidesets = input_mesh\n", {4});
+  const double area = area_of(as_written(m), as_written(m).side_sets[0]);
+  EXPECT_NEAR(area_of(found, set_of(found.side_sets, 1)), area, 1e-12 * area);
+  EXPECT_NEAR(area_of(found, set_of(found.side_sets, 9)), area, 1e-12 * area);
+  EXPECT_FALSE(set_of(found.side_sets, 5).element.empty());
+  EXPECT_EQ(set_of(found.node_sets, 3).node.size(), 2U);
+}
+
+TEST_F(InputMeshes, CarriesSetsOfKeptBlocks) {
+  const ExodusMesh m = nested();
+  write_mesh(m);
+  const RankMesh found = expect_same(
+      two_balls(), kMesh + "input_mesh_blocks = 2 4\nmesh_void = true\ngen_sidesets = input_mesh\n", {3});
+  const RankMesh before = as_written(m);
+  for (const auto& set : before.side_sets) {
+    SCOPED_TRACE(set.name);
+    const double area = area_of(before, set);
+    EXPECT_NEAR(area_of(found, set_of(found.side_sets, set.id)), area, 1e-12 * area);
+  }
+  EXPECT_EQ(set_of(found.node_sets, 2).node.size(), m.node_sets[1].node.size());
+}
+
+double volume_of(const HexPlaces& hexes) {
+  double volume = 0;
+  for (const auto& hex : hexes) {
+    HexCorners p;
+    for (std::size_t c = 0; c < 8; ++c) p[c] = {hex[c][0], hex[c][1], hex[c][2]};
+    volume += hex_volume(p);
+  }
+  return volume;
+}
+// The nodes that two blocks share.
+std::set<std::int32_t> shared_nodes(const RankMesh& m, std::int64_t a, std::int64_t b) {
+  const auto& in_a = set_of(m.blocks, a).nodes;
+  const std::set<std::int32_t> first(in_a.begin(), in_a.end());
+  std::set<std::int32_t> shared;
+  for (const std::int32_t n : set_of(m.blocks, b).nodes)
+    if (first.contains(n)) shared.insert(n);
+  return shared;
+}
+
+// A ball of void or of material in nested cylinders, across the plane between blocks 1 and 2; their polygonal
+// wall towards block 3, and block 4, are out of its reach.
+TEST_F(InputMeshes, GeometryAndBlocks) {
+  ExodusMesh m = exodus_mesh("nested", {"--n", "3", "m.g"});
+  write_mesh(m);
+  write("s.diatom",
+        "diatom\npackage 'a'\nmaterial 1\ninsert sphere\ncenter = 13 13 7\nradius = 5\nendinsert\n"
+        "endpackage\nenddiatom\n");
+  const RankMesh found =
+      expect_same(kMesh + "diatom_file = s.diatom\ninput_mesh_material = geometry_and_blocks\n", {4, 5});
+  EXPECT_NE(first_console().find("  material 1 becomes block 5: block 1 of the input mesh keeps its id\n"),
+            std::string::npos);
+  ASSERT_EQ(found.blocks.size(), 5U);
+  EXPECT_EQ(set_of(found.blocks, 2).name, "upper");
+  for (const std::int64_t id : {3, 4}) {
+    const double volume = volume_of(hexes_of_block(m, id));
+    EXPECT_NEAR(volume_of(hexes_of_block(found, id)), volume, 1e-12 * volume) << id;
+  }
+  const double inner = volume_of(hexes_of_block(m, 1)) + volume_of(hexes_of_block(m, 2)),
+               ball = volume_of(hexes_of_block(found, 5));
+  EXPECT_NEAR(volume_of(hexes_of_block(found, 1)) + volume_of(hexes_of_block(found, 2)) + ball, inner,
+              1e-12 * inner);
+  EXPECT_NEAR(ball, 4.0 / 3 * 3.14159265358979 * 125, 0.1 * 524);  // its radius is two hexes
+  // Between blocks 1 and 2 nodes stay in their plane.
+  double plane = -1e300;
+  for (const auto& hex : hexes_of_block(m, 1))
+    for (const auto& p : hex) plane = std::max(plane, p[2]);
+  const auto between = shared_nodes(found, 1, 2);
+  EXPECT_GT(between.size(), 8U);
+  for (const std::int32_t n : between) EXPECT_NEAR(found.z[static_cast<std::size_t>(n - 1)], plane, 1e-12);
+}
+
 }  // namespace
 }  // namespace sculpt::cli

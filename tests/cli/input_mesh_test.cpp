@@ -112,6 +112,10 @@ TEST_F(InputMesh, SetsOfACubeWithLayersOfItsOwn) {
     const RankMesh alone =
         expect_same(std::string("input_mesh = in.g\ngen_sidesets = input_mesh\n") + more, {3});
     expect_sets(alone, {0, 1, 2, 3, 4, 5});
+    const RankMesh fixed = mesh(std::string("input_mesh = in.g\ngen_sidesets = fixed\n") + more, 2);
+    ASSERT_GE(fixed.side_sets.size(), 1U);
+    EXPECT_EQ(fixed.side_sets[0].id, 1);
+    EXPECT_NEAR(area(fixed, fixed.side_sets[0]), 24, 1e-9);
   }
 }
 

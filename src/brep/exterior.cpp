@@ -45,7 +45,7 @@ class ExteriorFinder {
     find_edges();
     find_surfaces();
     number_sides();
-    out_.holds.push_back({});  // the one of all nodes that do not move
+    out_.holds.assign(2, {});  // points: Exterior::kKept, Exterior::kVertex
     out_.hold_of.assign(cells_.position.size(), kNone);
     hold_nodes([](LocalId) { return true; });
     cells_.exterior = std::move(out_);
@@ -247,9 +247,9 @@ class ExteriorFinder {
       if (kept(c))
         for (const LocalId n : cells_.hexes[at(c)]) fixed[at(n)] = 1;
     for (LocalId n = 0; n < cells_.nodes(); ++n) {
-      if (!wanted(n) || out_.hold_of[at(n)] == 0) continue;
+      if (!wanted(n) || out_.hold_of[at(n)] == Exterior::kKept) continue;
       if (fixed[at(n)])
-        out_.hold_of[at(n)] = 0;
+        out_.hold_of[at(n)] = Exterior::kKept;
       else if (!facets_at[at(n)].empty())
         out_.hold_of[at(n)] = hold_for(n, facets_at[at(n)], creases[at(n)]);
     }
@@ -257,13 +257,13 @@ class ExteriorFinder {
   LocalId hold_for(LocalId n, const std::vector<LocalId>& on, const std::vector<LocalId>& creases) {
     const bool flat = options_.slides || std::all_of(on.begin(), on.end(),
                                                      [&](LocalId f) { return is_flat(out_.facets[at(f)]); });
-    if (creases.empty()) return flat ? out_.add_surface(on) : 0;
-    if (creases.size() != 2) return 0;
+    if (creases.empty()) return flat ? out_.add_surface(on) : Exterior::kVertex;
+    if (creases.size() != 2) return Exterior::kVertex;
     const std::array<Vec3, 3> line{cells_.position[at(creases[0])], cells_.position[at(n)],
                                    cells_.position[at(creases[1])]};
     const Vec3 one = unit(line[1] - line[0]), two = unit(line[2] - line[1]);
     const double most = options_.slides ? std::sin(kTurn * std::numbers::pi / 180) : kStraight;
-    return dot(one, two) > 0 && norm(cross(one, two)) <= most ? out_.add_line(line) : 0;
+    return dot(one, two) > 0 && norm(cross(one, two)) <= most ? out_.add_line(line) : Exterior::kVertex;
   }
 
   const Comm& comm_;
@@ -278,6 +278,45 @@ class ExteriorFinder {
   std::int64_t surfaces_ = 0;
   Exterior out_;
 };
+
+}  // namespace
+
+namespace {
+
+struct SurfacePair {
+  std::int32_t one, two;
+  auto operator<=>(const SurfacePair&) const = default;
+};
+
+// Surfaces that meet at an edge without much of a bend, of all ranks: a layer that ends there would have
+// hexes with two faces side by side on the boundary.
+std::vector<SurfacePair> flat_pairs(const Comm& comm, const Exterior& exterior, const HexMesh& cells) {
+  constexpr double kFlat = 0.7;  // cosine between the normals
+  std::vector<FacetEdge> edges;
+  for (const ExteriorFace& f : exterior.faces) {
+    const auto nodes = face_nodes(cells, {f.hex, f.face});
+    for (std::size_t v = 0; v < 4; ++v)
+      edges.push_back(
+          {std::min(nodes[v], nodes[(v + 1) % 4]), std::max(nodes[v], nodes[(v + 1) % 4]), f.facet});
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<SurfacePair> pairs;
+  const auto tidy = [&pairs] {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  };
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (std::size_t o = e + 1; o < edges.size() && edges[o].a == edges[e].a && edges[o].b == edges[e].b;
+         ++o) {
+      const Facet &f = exterior.facets[at(edges[e].facet)], &g = exterior.facets[at(edges[o].facet)];
+      if (f.surface != g.surface && dot(facet_normal(f), facet_normal(g)) > kFlat)
+        pairs.push_back({std::min(f.surface, g.surface), std::max(f.surface, g.surface)});
+    }
+  tidy();
+  pairs = comm.concatenate(pairs);
+  tidy();
+  return pairs;
+}
 
 }  // namespace
 
@@ -319,7 +358,23 @@ void keep_whole(const Comm& comm, Exterior& exterior, const HexMesh& cells, cons
     mark(one.surface);
     mark(two.surface);
   }
+  for (const Facet& f : exterior.facets)
+    if (f.kept != 0) mark(f.surface);
   comm.bit_or(whole);
+  const std::vector<SurfacePair> pairs = flat_pairs(comm, exterior, cells);
+  const auto is_whole = [&](std::int32_t surface) {
+    const auto s = static_cast<std::size_t>(surface);
+    return (whole[s / 64] >> (s % 64) & 1) != 0;
+  };
+  for (bool more = true; more;) {
+    more = false;
+    for (const SurfacePair& p : pairs) {
+      if (is_whole(p.one) == is_whole(p.two)) continue;
+      mark(p.one);
+      mark(p.two);
+      more = true;
+    }
+  }
   for (Facet& f : exterior.facets) {
     if (f.surface == kInside) continue;
     const auto s = static_cast<std::size_t>(f.surface);

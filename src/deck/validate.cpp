@@ -117,6 +117,10 @@ const std::vector<Rule>& rules() {
       {[](const Deck& d) { return d.given("input_mesh_blocks") && !has_mesh(d); },
        {"input_mesh_blocks"},
        "input_mesh_blocks needs input_mesh or input_mesh_pamgen"},
+      {[](const Deck& d) { return d.gen_sidesets == kSidesetsInputMesh && !has_mesh(d); },
+       {"gen_sidesets"},
+       "gen_sidesets = input_mesh carries the sets of an input mesh over; give input_mesh or "
+       "input_mesh_pamgen"},
       {[](const Deck& d) { return d.given("input_spn") && !has_counts(d); }, counts,
        "input_spn needs the number of cells nelx, nely and nelz", Tell::kMissing},
       {[](const Deck& d) { return d.given("diatom_file") && !has_mesh(d) && !has_counts(d); }, counts,

@@ -12,12 +12,13 @@ namespace sculpt {
 namespace {
 
 constexpr GlobalId kNodeFactor = 64;
-constexpr GlobalId kBoxNodeFactor = 2;  // a wrap of the box copies a node once
-constexpr int kBottom = 4, kTop = 5;    // faces of a new hex: towards the old hex, where the old face was
-constexpr double kLongEdge = 2;         // in the shortest edges at a node: longer ones count as this long
-constexpr double kAhead = 0.2;          // cosine: what leads away from a face
-constexpr double kLeastOfWay = 0.25;    // what is left of the way of a copy when it is put on the exterior
-constexpr std::int32_t kOutside = -1;   // stands for the material of what is not meshed
+constexpr GlobalId kBoxNodeFactor = 2;       // a wrap of the box copies a node once
+constexpr GlobalId kExteriorNodeFactor = 4;  // parts of the domain may meet in a node
+constexpr int kBottom = 4, kTop = 5;   // faces of a new hex: towards the old hex, where the old face was
+constexpr double kLongEdge = 2;        // in the shortest edges at a node: longer ones count as this long
+constexpr double kAhead = 0.2;         // cosine: what leads away from a face
+constexpr double kLeastOfWay = 0.25;   // what is left of the way of a copy when it is put on the exterior
+constexpr std::int32_t kOutside = -1;  // stands for the material of what is not meshed
 
 // The interface that runs through a set at one of its nodes.
 struct InterfaceThrough {
@@ -41,7 +42,9 @@ class Pillower {
         label_(label),
         drop_(drop),
         rules_(rules),
-        node_factor_(rules.box_sides != 0 ? kBoxNodeFactor : kNodeFactor),
+        node_factor_(rules.box_sides == 0    ? kNodeFactor
+                     : mesh.exterior.empty() ? kBoxNodeFactor
+                                             : kExteriorNodeFactor),
         kept_layers_(mesh.ghost_layers - 1) {}
 
   Pillowed run(const Comm& comm) {
@@ -132,31 +135,45 @@ class Pillower {
       if (!on_boundary_[at(n)]) continue;
       copy_node(n, items);
       if (rules_.box_sides == 0 && mesh_.box_sides[at(n)] != 0) {
-        const auto left = static_cast<std::uint8_t>(sides_of_layers(n, items) | sides_of_hexes(n, items));
+        const std::uint8_t left = sides_left(n, items);
         result_.mesh.box_sides[at(first_[at(n)])] = left;
         if (!mesh_.exterior.empty() && left != mesh_.box_sides[at(n)]) leave_exterior(n, items, left);
       }
     }
   }
 
-  // The sides of the domain on which an old node has a face of a new hex: on a wrapped side, or where the
-  // layer on a wrapped face ends at a side in an edge at the node. In meshes that are no lattice a hex may
-  // touch a side in an edge or a node only; the layers around it close over that, and the node lies inside
-  // then.
-  [[nodiscard]] std::uint8_t sides_of_layers(LocalId node, std::span<const std::int32_t> items) const {
-    unsigned sides = 0;
-    for (const std::int32_t item : items)
+  // The sides of the domain on which an old node still has a face, now that its copies are known: a wrapped
+  // one, one of a hex that did not take a copy, or one of a new hex, where a wrapped face meets the side in
+  // an edge at the node. But where the faces on both sides of that edge belong to one group, the layers close
+  // over the edge: in meshes that are no lattice a hex may touch the boundary in an edge or a node only, and
+  // the node lies inside then.
+  [[nodiscard]] std::uint8_t sides_left(LocalId node, std::span<const std::int32_t> items) {
+    unsigned left = 0;
+    rim_.clear();
+    for (const std::int32_t item : items) {
+      const LocalId h = item / 8, corner = corner_[at(h)][static_cast<std::size_t>(item % 8)];
       for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)]) {
-        const HexFace face{item / 8, f};
-        if (neighbours_[at(face.hex)][static_cast<std::size_t>(f)] != kNone) continue;
-        const auto nodes = face_nodes(mesh_, face);
+        if (neighbours_[at(h)][static_cast<std::size_t>(f)] != kNone) continue;
+        const std::uint8_t sides = face_sides(mesh_, h, f);
+        if (wrapped(h, f) || corner == first_[at(node)]) left |= sides;
+        if (wrapped(h, f)) continue;
+        const auto nodes = face_nodes(mesh_, {h, f});
         const auto v = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
-        if (wrapped(face.hex, f) || layer_at(face, v).hex != kNone ||
-            layer_at(face, (v + 3) % 4).hex != kNone)
-          sides |= face_sides(mesh_, face.hex, f);
+        for (const std::size_t edge : {v, (v + 3) % 4})
+          rim_.push_back(
+              {nodes[edge == v ? (v + 1) % 4 : edge], corner, sides, layer_at({h, f}, edge).hex != kNone});
       }
-    return static_cast<std::uint8_t>(sides);
+    }
+    for (const Rim& one : rim_) {
+      if (!one.at_layer) continue;
+      const bool closed = std::any_of(rim_.begin(), rim_.end(), [&](const Rim& two) {
+        return &one != &two && one.end == two.end && one.corner == two.corner;
+      });
+      if (!closed) left |= one.sides;
+    }
+    return static_cast<std::uint8_t>(left);
   }
+
   // The wrapped face on which a layer ends at an edge of a face of the boundary that is not wrapped; hex:
   // kNone when there is none. It may be one of the same hex or of a hex of the same set farther around the
   // edge.
@@ -170,17 +187,6 @@ class Pillower {
       face = other_side(mesh_, neighbours_, face);
       if (face.hex == kNone) return face;
     }
-  }
-  // Those on which it has a face of an old hex that did not take a copy.
-  [[nodiscard]] std::uint8_t sides_of_hexes(LocalId node, std::span<const std::int32_t> items) const {
-    unsigned sides = 0;
-    for (const std::int32_t item : items) {
-      const LocalId h = item / 8;
-      if (corner_[at(h)][static_cast<std::size_t>(item % 8)] != first_[at(node)]) continue;
-      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)])
-        if (neighbours_[at(h)][static_cast<std::size_t>(f)] == kNone) sides |= face_sides(mesh_, h, f);
-    }
-    return static_cast<std::uint8_t>(sides);
   }
 
   // One copy for every face-connected group of equally labelled hexes at the node that has a wrapped face
@@ -269,9 +275,9 @@ class Pillower {
     exterior.hold_of.back() = kNone;
     if (pieces_.empty()) return;
     add_pieces(node, items, all_pieces_);
-    if (all_pieces_.size() == pieces_.size() &&
-        sides_of_layers(node, items) == 0) {  // it takes the node's place
-      exterior.hold_of.back() = mesh_.exterior.hold_of[at(node)];
+    const LocalId of_node = mesh_.exterior.hold_of[at(node)];
+    if (all_pieces_.size() == pieces_.size() && of_node != Exterior::kKept && !at_whole_face(items)) {
+      exterior.hold_of.back() = of_node;  // it takes the node's place
       result_.mesh.position.back() = p;
       return;
     }
@@ -292,6 +298,14 @@ class Pillower {
     }
     result_.mesh.position.back() = q;
   }
+  // Whether a face of the boundary is wrapped at the node, so that the node stays there.
+  [[nodiscard]] bool at_whole_face(std::span<const std::int32_t> items) const {
+    for (const std::int32_t item : items)
+      for (const int f : kCornerFaces[static_cast<std::size_t>(item % 8)])
+        if (neighbours_[at(item / 8)][static_cast<std::size_t>(f)] == kNone && wrapped(item / 8, f))
+          return true;
+    return false;
+  }
   LocalId hold_for_pieces() {
     Exterior& exterior = result_.mesh.exterior;
     const auto facet = [&](std::size_t i) -> const Facet& { return exterior.facets[at(pieces_[i].facet)]; };
@@ -310,11 +324,16 @@ class Pillower {
     const std::size_t n = pieces_.size();
     if (!order(pieces_)) return on_surface(0, n);
     bool flat = true;
+    std::size_t edges = 0, edge = 0;  // between surfaces; the last of them
     for (std::size_t i = 0; i + 1 < n; ++i) {
-      if (facet(i).surface != facet(i + 1).surface) return on_edge(i);
+      if (facet(i).surface != facet(i + 1).surface) {
+        ++edges;
+        edge = i;
+      }
       flat = flat && (pieces_[i].facet == pieces_[i + 1].facet || coplanar(facet(i), facet(i + 1)));
     }
-    if (flat || exterior.slides) return on_surface(0, n);
+    if (edges == 1) return on_edge(edge);
+    if (edges == 0 && (flat || exterior.slides)) return on_surface(0, n);
     if (n % 2 == 1) return on_surface(n / 2, n / 2 + 1);
     const std::size_t middle = n / 2 - 1;
     const bool level =
@@ -326,7 +345,7 @@ class Pillower {
   void leave_exterior(LocalId node, std::span<const std::int32_t> items, std::uint8_t left) {
     const LocalId old = first_[at(node)];
     LocalId& hold = result_.mesh.exterior.hold_of[at(old)];
-    if (hold == kNone || mesh_.exterior.holds[at(hold)].kind == Hold::Kind::kPoint) return;
+    if (hold == kNone || hold == Exterior::kKept) return;
     if (left != 0) {
       patch_.clear();
       for (const std::int32_t item : items)
@@ -660,6 +679,14 @@ class Pillower {
   std::vector<LocalId> start_;  // per old hex: its new number, followed by those of the hexes on its faces
   std::vector<std::int32_t> group_;
   std::vector<LocalId> inner_, outer_;
+  // An edge at a node of a face on the boundary: its other end, the new node that the hex takes there, the
+  // sides that hold the face, whether a new hex has a face there over the edge.
+  struct Rim {
+    LocalId end, corner;
+    std::uint8_t sides;
+    bool at_layer;
+  };
+  std::vector<Rim> rim_;
   std::vector<Piece> pieces_, all_pieces_;
   std::vector<LocalId> patch_;
   std::vector<std::uint8_t> done_;

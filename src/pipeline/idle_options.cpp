@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <initializer_list>
 #include <string_view>
 
 #include "sculpt/deck/options.hpp"
@@ -37,6 +38,14 @@ bool asks(const Deck& deck, std::string_view option) {
   return deck.given(option);
 }
 
+// The names of those that were given, with commas.
+std::string given_of(const Deck& deck, std::initializer_list<std::string_view> options) {
+  std::string names;
+  for (const std::string_view option : options)
+    if (deck.given(option)) names += fmt::format("{}{}", names.empty() ? "" : ", ", option);
+  return names;
+}
+
 }  // namespace
 
 std::string_view adapt_type_name(const Deck& deck) {
@@ -61,6 +70,33 @@ std::vector<std::string> idle_adapt_options(const Deck& deck) {
   }
   if (!idle.empty())
     told.push_back(fmt::format("adapt_type is {}; no effect: {}", adapt_type_name(deck), idle));
+  return told;
+}
+
+std::vector<std::string> idle_grid_options(const Deck& deck) {
+  std::vector<std::string> told;
+  const auto tell = [&](const char* why, std::initializer_list<std::string_view> options) {
+    if (const std::string idle = given_of(deck, options); !idle.empty())
+      told.push_back(fmt::format("{}; no effect: {}", why, idle));
+  };
+  if (deck.input_mesh.empty() && deck.input_mesh_pamgen.empty()) {
+    tell("there is no input mesh",
+         {"feature_angle", "exterior_sliding", "input_mesh_partition", "input_mesh_material"});
+    return told;
+  }
+  if (deck.input_spn.empty() && deck.diatom_file.empty())
+    tell("the materials are element variables, which leave no void to the blocks", {"input_mesh_material"});
+  if (deck.input_spn.empty()) tell("the input mesh is the grid", {"nelx", "nely", "nelz"});
+  tell("the input mesh has a place and cells of its own",
+       {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", "cell_size"});
+  return told;
+}
+
+std::vector<std::string> idle_without_grid(const Deck& deck) {
+  std::vector<std::string> told = idle_adapt_options(deck);
+  const std::string idle =
+      given_of(deck, {"iproc", "jproc", "kproc", "check_periodic", "check_periodic_tol"});
+  if (!idle.empty()) told.push_back(fmt::format("the input mesh is no Cartesian grid; no effect: {}", idle));
   return told;
 }
 

@@ -13,5 +13,9 @@ namespace sculpt {
 
 // The adapt_... options that were given without effect, in sentences for the console.
 [[nodiscard]] std::vector<std::string> idle_adapt_options(const Deck& deck);
+// Likewise: those of input meshes without one, those of the Cartesian grid with one.
+[[nodiscard]] std::vector<std::string> idle_grid_options(const Deck& deck);
+// Likewise: those of Cartesian grids, with an input mesh that is none.
+[[nodiscard]] std::vector<std::string> idle_without_grid(const Deck& deck);
 
 }  // namespace sculpt

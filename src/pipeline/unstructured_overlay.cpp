@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "pipeline/hex_materials.hpp"
+#include "pipeline/idle_options.hpp"
 #include "pipeline/layers.hpp"
 #include "sculpt/base/lot.hpp"
 #include "sculpt/brep/exterior.hpp"
@@ -39,6 +40,9 @@ PartitionMethod partition_method(const Deck& deck) {
   }
 }
 
+// Whether materials come from shapes or voxels; otherwise from the element variables of the mesh.
+bool has_geometry(const Deck& deck) { return !deck.input_spn.empty() || !deck.diatom_file.empty(); }
+
 class InputMeshOverlay {
  public:
   InputMeshOverlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages)
@@ -51,9 +55,10 @@ class InputMeshOverlay {
     stages_.end("read input mesh");
     find_blocks();
     check_conformity(comm_, mesh_.share, block_ids());
-    if (!restricted() && deck_.gen_sidesets != kSidesetsInputMesh && !keeps_blocks())
+    if (!keeps_something())
       if (const auto grid = cartesian_grid_of(comm_, mesh_.share)) return on_grid(*grid);
     refuse_what_needs_a_grid();
+    for (const std::string& idle : idle_without_grid(deck_)) log_.line("WARNING: {}", idle);
     stages_.end("check input mesh");
     return on_mesh();
   }
@@ -63,10 +68,15 @@ class InputMeshOverlay {
     return deck_.input_mesh.empty() ? deck_.input_mesh_pamgen : deck_.input_mesh;
   }
   [[nodiscard]] bool keeps_blocks() const {
-    return deck_.input_mesh_material == kMeshMaterialGeometryAndBlocks;
+    return deck_.input_mesh_material == kMeshMaterialGeometryAndBlocks && has_geometry(deck_);
   }
   [[nodiscard]] bool restricted() const {
     return std::find(kept_block_.begin(), kept_block_.end(), 1) != kept_block_.end();
+  }
+
+  // What a Cartesian grid does not have.
+  [[nodiscard]] bool keeps_something() const {
+    return restricted() || keeps_blocks() || deck_.gen_sidesets == kSidesetsInputMesh;
   }
 
   [[nodiscard]] std::vector<std::int64_t> block_ids() const {
@@ -93,9 +103,9 @@ class InputMeshOverlay {
   void refuse_what_needs_a_grid() const {
     const auto refuse = [&](const char* option, const std::string& why) {
       throw AgreedError(
-          fmt::format("option '{}' ({}): {}; '{}' is not a Cartesian grid or is more than one: blocks or "
-                      "sets are to be kept",
-                      option, deck_.given_options.place(option), why, path()));
+          fmt::format("option '{}' ({}): {}; {}", option, deck_.given_options.place(option), why,
+                      keeps_something() ? fmt::format("blocks or sets of '{}' are to be kept", path())
+                                        : fmt::format("'{}' is not a Cartesian grid", path())));
     };
     if (deck_.adapt_type != kAdaptOff)
       refuse("adapt_type", "refinement and coarsening pair the layers of a Cartesian grid");
@@ -140,9 +150,8 @@ class InputMeshOverlay {
 
   HexMaterials measure(const HexList& hexes, std::span<const GlobalId> element,
                        std::span<const double> value) const {
-    return deck_.input_spn.empty() && deck_.diatom_file.empty()
-               ? materials_of_variables(comm_, path(), mesh_.variables, element, value)
-               : materials_of_source(comm_, deck_, hexes, log_);
+    return has_geometry(deck_) ? materials_of_source(comm_, deck_, hexes, log_)
+                               : materials_of_variables(comm_, path(), mesh_.variables, element, value);
   }
 
   Overlay on_mesh() {

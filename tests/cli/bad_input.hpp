@@ -50,9 +50,9 @@ class BadInput : public Scratch {
     write("deck.i", "BEGIN SCULPT\ninput_cart_exo = grid.e\nEND SCULPT\n");
   }
 
-  // Runs the deck with output to out.e.N.r, where earlier files lie.
-  void expect_refused(int ranks, const Words& expected, const RunOptions& options = {},
-                      const std::string& base = "out") {
+  // Runs the deck with output to out.e.N.r, where earlier files lie. Returns the message.
+  std::string expect_refused(int ranks, const Words& expected, const RunOptions& options = {},
+                             const std::string& base = "out") {
     for (int r = 0; r < ranks; ++r) write(fmt::format("out.e.{}.{}", ranks, r), "an earlier result\n");
     const auto before = snapshot();
     const RunResult result =
@@ -60,6 +60,7 @@ class BadInput : public Scratch {
     expect_message(result, expected);
     EXPECT_EQ(names(snapshot()), names(before));
     EXPECT_TRUE(snapshot() == before) << "an earlier file has changed";
+    return result.error;
   }
 
   static void expect_message(const RunResult& result, const Words& expected) {

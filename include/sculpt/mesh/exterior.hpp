@@ -40,10 +40,13 @@ struct ExteriorFace {
 };
 
 struct Exterior {
+  static constexpr LocalId kKept = 0;    // the hold of nodes of hexes that stay as they are
+  static constexpr LocalId kVertex = 1;  // that of nodes which no move would leave on the boundary
+
   std::vector<Facet> facets;
-  std::vector<ExteriorFace> faces;  // ascending in (hex, face)
-  std::vector<LocalId> hold_of;     // per node: index into holds, kNone: moves freely
-  std::vector<Hold> holds;
+  std::vector<ExteriorFace> faces;   // ascending in (hex, face)
+  std::vector<LocalId> hold_of;      // per node: index into holds, kNone: moves freely
+  std::vector<Hold> holds;           // the first two as above
   std::vector<LocalId> patch;        // facets of the holds
   std::vector<std::uint8_t> curved;  // per surface: 1 = it does not lie in one plane; the same on all ranks
   bool slides = false;               // nodes may slide across the edges between facets of one surface

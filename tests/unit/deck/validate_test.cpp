@@ -75,8 +75,8 @@ TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
 }
 
 TEST(Validate, RefusesUnsupportedValues) {
-  EXPECT_EQ(verdict(kSpn + "gen_sidesets = 9"),
-            "option 'gen_sidesets' (line 6 of deck.i): value input_mesh (9) is not supported yet");
+  EXPECT_EQ(verdict(kSpn + "gen_sidesets = 8"),
+            "option 'gen_sidesets' (line 6 of deck.i): value rve_variable (8) is not supported yet");
 }
 
 // Every unsupported switch may be written down as long as it stays off.
@@ -136,6 +136,10 @@ TEST(Validate, AMeshIsTheGridOfSomeSources) {
       verdict(kSpn + "input_mesh_blocks = 2"),
       "input_mesh_blocks needs input_mesh or input_mesh_pamgen; given: input_mesh_blocks = 2 (line 6 of "
       "deck.i)");
+  EXPECT_EQ(verdict(kSpn + "gen_sidesets = input_mesh"),
+            "gen_sidesets = input_mesh carries the sets of an input mesh over; give input_mesh or "
+            "input_mesh_pamgen; given: gen_sidesets = input_mesh (line 6 of deck.i)");
+  EXPECT_EQ(verdict(kSpn + "input_mesh_pamgen = m.p\ngen_sidesets = input_mesh"), "no error");
   EXPECT_EQ(verdict("input_mesh = m.g\ndiatom_file = a\ninput_spn = b"),
             "only one input geometry is allowed; given: diatom_file = a (line 3 of deck.i), input_spn = b "
             "(line 4 of deck.i)");

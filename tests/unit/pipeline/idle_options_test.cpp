@@ -47,5 +47,34 @@ TEST(IdleAdaptOptions, WithoutLevels) {
   EXPECT_EQ(told("adapt_levels = 0"), Told{"adapt_type is off; no effect: adapt_levels"});
 }
 
+TEST(IdleGridOptions, OfMeshesAndGrids) {
+  const auto idle = [](const std::string& lines) {
+    return idle_grid_options(parse_deck("BEGIN SCULPT\n" + lines + "\nEND SCULPT\n", "deck.i"));
+  };
+  const std::string grid = "nelx = 2\nnely = 2\nxmin = 0\nzmax = 1\n",
+                    mesh =
+                        "feature_angle = 100\nexterior_sliding = surface\ninput_mesh_partition = rib\n"
+                        "input_mesh_material = automatic\n";
+  EXPECT_EQ(idle(grid), Told{});
+  EXPECT_EQ(idle(grid + mesh), Told{"there is no input mesh; no effect: feature_angle, exterior_sliding, "
+                                    "input_mesh_partition, input_mesh_material"});
+  const std::string place = "the input mesh has a place and cells of its own; no effect: xmin, zmax";
+  EXPECT_EQ(idle(grid + mesh + "input_mesh = a.g\n"),
+            (Told{"the materials are element variables, which leave no void to the blocks; no effect: "
+                  "input_mesh_material",
+                  "the input mesh is the grid; no effect: nelx, nely", place}));
+  EXPECT_EQ(idle(grid + mesh + "input_mesh_pamgen = a.p\ninput_spn = a.spn"), Told{place});
+}
+
+TEST(IdleWithoutGrid, TellsOfRefinementAndOfSegments) {
+  const auto idle = [](const std::string& lines) {
+    return idle_without_grid(parse_deck("BEGIN SCULPT\n" + lines + "\nEND SCULPT\n", "deck.i"));
+  };
+  EXPECT_EQ(idle("input_mesh = a.g"), Told{});
+  EXPECT_EQ(idle("adapt_levels = 2\njproc = 1\ncheck_periodic = false"),
+            (Told{"adapt_type is off; no effect: adapt_levels",
+                  "the input mesh is no Cartesian grid; no effect: jproc, check_periodic"}));
+}
+
 }  // namespace
 }  // namespace sculpt

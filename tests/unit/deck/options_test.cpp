@@ -104,8 +104,9 @@ TEST(OptionTable, HoldsEveryOptionOfSculpt) {
   EXPECT_EQ(find_option("nelxx"), nullptr);
   // 135 options of 16.14, the older scale, help, mpi and cubit_launch, and our own: quality_variable,
   // require_quality, resolve_reversals, keep_materials, pillow_boundary_layers, surface_projection,
-  // opt_method, opt_damping, opt_metric, adapt_remainder and periodic_directions
-  EXPECT_EQ(option_table().size(), 150u);
+  // opt_method, opt_damping, opt_metric, adapt_remainder, periodic_directions, input_mesh_partition,
+  // feature_angle and exterior_sliding
+  EXPECT_EQ(option_table().size(), 153u);
 }
 
 TEST(OptionTable, DefaultsAreSculptsExceptTheQualityFloor) {

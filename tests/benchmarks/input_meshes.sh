@@ -71,5 +71,5 @@ for n in $ranks; do
     measure "split by decomp" "$n" "${spn[@]}" --input_mesh box.g --gen_sidesets input_mesh
     rm -f box.g."$n".*
   fi
-  measure "cylinder" "$n" "${spn[@]}" --input_mesh cylinder.g
+  measure "cylinder" "$n" "${spn[@]}" --input_mesh cylinder.g --mesh_void true
 done

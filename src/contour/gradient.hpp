@@ -18,9 +18,9 @@ class GradientStencil {
     Vec3 gradient;
   };
   // Every material in the cell or a cell that shares a node with it, ascending. The stencil is mirrored at
-  // the sides of a box (not at an exterior), so that interfaces leave it at right angles; a direction without neighbours gets no
-  // gradient. In a lattice all neighbours weigh the same, in other meshes by the inverse square of their
-  // distance: there some are much nearer than others.
+  // the sides of a box (not at an exterior), so that interfaces leave it at right angles; a direction without
+  // neighbours gets no gradient. In a lattice all neighbours weigh the same, in other meshes by the inverse
+  // square of their distance: there some are much nearer than others.
   const std::vector<Entry>& at(LocalId cell);
 
  private:

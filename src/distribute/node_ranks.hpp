@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "distribute/id_set.hpp"
+#include "sculpt/base/even_parts.hpp"
 #include "sculpt/mesh/element_share.hpp"
 #include "sculpt/par/comm.hpp"
-#include "sculpt/base/even_parts.hpp"
 
 namespace sculpt {
 

@@ -170,6 +170,7 @@ class InputMeshOverlay {
     for (std::size_t c = 0; c < kept.size(); ++c) kept[c] = kept_block_[at(full.block[c])];
     overlay.sets = collect_sets(cells);
     find_exterior(comm_, cells, face_neighbours(cells), kept, exterior_options(cells, overlay.sets));
+    tell_exterior(cells);
     stages_.end("distribute");
 
     // The hexes that receive the microstructure.
@@ -221,6 +222,15 @@ class InputMeshOverlay {
     overlay.fractions = with_ghosts(cells, materials.owned);
     stages_.end("volume fractions");
     return overlay;
+  }
+
+  void tell_exterior(const HexMesh& cells) const {
+    const Exterior& exterior = cells.exterior;
+    std::int64_t facets = 0;
+    for (const ExteriorFace& f : exterior.faces) facets += cells.layer[at(f.hex)] == 0;
+    log_.line("  {} boundary faces in {} surfaces, {} of them curved (feature_angle = {:g})",
+              comm_.sum(facets), exterior.curved.size(),
+              std::count(exterior.curved.begin(), exterior.curved.end(), 1), deck_.feature_angle);
   }
 
   // Side sets as faces of the local cells, and node sets, of the input mesh. Every rank has all node sets.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "distribute/id_set.hpp"
+#include "distribute/id_index.hpp"
 #include "sculpt/base/even_parts.hpp"
 #include "sculpt/geom/hex.hpp"
 #include "sculpt/mesh/node_directory.hpp"
@@ -146,7 +146,7 @@ std::optional<CartesianShare> cartesian_grid_of(const Comm& comm, const ElementS
   if (comm.min(good) == 0) return {};
 
   CartesianShare result{*grid, {}};
-  const IdSet nodes(share.corner);
+  const IdIndex nodes(share.corner);
   std::vector<Index3> place;
   for (const Vec3& p : positions_of(comm, share, nodes.ids())) {
     if (!planes.find(p, index)) index = {0, 0, 0};  // never: it did above

@@ -7,7 +7,7 @@
 
 #include "distribute/face_search.hpp"
 #include "distribute/faces.hpp"
-#include "distribute/id_set.hpp"
+#include "distribute/id_index.hpp"
 #include "distribute/node_ranks.hpp"
 #include "sculpt/mesh/node_directory.hpp"
 
@@ -88,7 +88,7 @@ class Conformity {
     Finding best;
     look_for_repeated_nodes(best);
     agree(best);
-    std::vector<ExteriorFace> exterior = match_faces(best);
+    std::vector<LoneFace> exterior = match_faces(best);
     agree(best);
     place_corners(exterior);
     look_for_touches(exterior, best);
@@ -114,8 +114,8 @@ class Conformity {
   }
 
   // Answers with faces of one element; each is on one rank, which need not be that of the element.
-  std::vector<ExteriorFace> match_faces(Finding& best) const {
-    const IdSet nodes(share_.corner);
+  std::vector<LoneFace> match_faces(Finding& best) const {
+    const IdIndex nodes(share_.corner);
     std::vector<std::uint8_t> elsewhere(nodes.ids().size(), 0);  // other ranks have elements there
     for (const NodeHolder& holder : NodeRanks(comm_, share_, nodes).others(nodes.ids()))
       elsewhere[at(holder.item)] = 1;
@@ -154,24 +154,24 @@ class Conformity {
       for (sides.clear(); i < met.size() && met[i].key == met[first].key; ++i) sides.push_back(met[i].side);
       settle(sides);
     }
-    std::vector<ExteriorFace> faces;
+    std::vector<LoneFace> faces;
     for (const Side& side : exterior) faces.push_back({side.nodes, side.element, side.block, 0, {}});
     return faces;
   }
 
-  void place_corners(std::vector<ExteriorFace>& faces) const {
+  void place_corners(std::vector<LoneFace>& faces) const {
     std::vector<GlobalId> nodes;
-    for (const ExteriorFace& face : faces) nodes.insert(nodes.end(), face.nodes.begin(), face.nodes.end());
+    for (const LoneFace& face : faces) nodes.insert(nodes.end(), face.nodes.begin(), face.nodes.end());
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     const std::vector<Vec3> position = positions_of(comm_, share_, nodes);
-    for (ExteriorFace& face : faces)
+    for (LoneFace& face : faces)
       for (std::size_t v = 0; v < 4; ++v)
         face.corner[v] = position[static_cast<std::size_t>(
             std::lower_bound(nodes.begin(), nodes.end(), face.nodes[v]) - nodes.begin())];
   }
 
-  void look_for_touches(std::span<const ExteriorFace> exterior, Finding& best) const {
+  void look_for_touches(std::span<const LoneFace> exterior, Finding& best) const {
     for (const Touch& touch : touching_nodes(comm_, exterior, kTolerance)) {
       Finding f;
       f.place = touch.place;
@@ -190,14 +190,14 @@ class Conformity {
     }
   }
 
-  void look_for_half_shared(std::span<const ExteriorFace> exterior, Finding& best) const {
+  void look_for_half_shared(std::span<const LoneFace> exterior, Finding& best) const {
     struct Diagonal {
       GlobalId lo, hi;
-      ExteriorFace face;
+      LoneFace face;
     };
     const EvenParts ranges{share_.nodes, comm_.size()};
     std::vector<std::vector<Diagonal>> out(static_cast<std::size_t>(comm_.size()));
-    for (const ExteriorFace& face : exterior)
+    for (const LoneFace& face : exterior)
       for (std::size_t v = 0; v < 2; ++v) {
         const auto [lo, hi] = std::minmax(face.nodes[v], face.nodes[v + 2]);
         out[ranges.part_of(lo)].push_back({lo, hi, face});
@@ -210,7 +210,7 @@ class Conformity {
     });
     for (std::size_t i = 0; i < met.size(); ++i)
       for (std::size_t j = i + 1; j < met.size() && key(met[j]) == key(met[i]); ++j) {
-        const ExteriorFace &a = met[i].face, &b = met[j].face;
+        const LoneFace &a = met[i].face, &b = met[j].face;
         const Vec3 na = cross(a.corner[2] - a.corner[0], a.corner[3] - a.corner[1]),
                    nb = cross(b.corner[2] - b.corner[0], b.corner[3] - b.corner[1]);
         if (dot(na, nb) > -0.5 * norm(na) * norm(nb)) continue;

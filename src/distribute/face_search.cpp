@@ -38,7 +38,7 @@ struct Cubes {
 
 struct FaceEntry {
   std::uint64_t key;
-  ExteriorFace face;
+  LoneFace face;
 };
 struct NodeEntry {
   std::uint64_t key;
@@ -50,7 +50,7 @@ struct Extent {
   Vec3 lo, hi;
   double shortest, longest;  // edge
 };
-Extent extent_of(const ExteriorFace& face) {
+Extent extent_of(const LoneFace& face) {
   Extent e{face.corner[0], face.corner[0], std::numeric_limits<double>::max(), 0};
   for (std::size_t v = 0; v < 4; ++v) {
     const Vec3& p = face.corner[v];
@@ -65,11 +65,11 @@ Extent extent_of(const ExteriorFace& face) {
   return e;
 }
 
-Cubes cubes_around(const Comm& comm, std::span<const ExteriorFace> faces) {
+Cubes cubes_around(const Comm& comm, std::span<const LoneFace> faces) {
   Vec3 lo, hi;
   for (std::size_t d = 0; d < 3; ++d) {
     double least = std::numeric_limits<double>::max(), greatest = std::numeric_limits<double>::lowest();
-    for (const ExteriorFace& face : faces)
+    for (const LoneFace& face : faces)
       for (const Vec3& p : face.corner) {
         least = std::min(least, p[d]);
         greatest = std::max(greatest, p[d]);
@@ -81,7 +81,7 @@ Cubes cubes_around(const Comm& comm, std::span<const ExteriorFace> faces) {
   return {lo, size > 0 ? 2 * size : 1};
 }
 
-void compare(const NodeEntry& node, const ExteriorFace& face, double tolerance, std::vector<Touch>& touches) {
+void compare(const NodeEntry& node, const LoneFace& face, double tolerance, std::vector<Touch>& touches) {
   if (std::find(face.nodes.begin(), face.nodes.end(), node.node) != face.nodes.end()) return;
   const Extent extent = extent_of(face);
   for (std::size_t v = 0; v < 4; ++v) {
@@ -127,13 +127,13 @@ double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const V
   return std::fmin(edges, std::fabs(dot(p - a, normal)) / area);
 }
 
-std::vector<Touch> touching_nodes(const Comm& comm, std::span<const ExteriorFace> faces, double tolerance) {
+std::vector<Touch> touching_nodes(const Comm& comm, std::span<const LoneFace> faces, double tolerance) {
   const Cubes cubes = cubes_around(comm, faces);
   const auto ranks = static_cast<std::uint64_t>(comm.size());
   std::vector<std::vector<FaceEntry>> faces_out(ranks);
   std::vector<std::vector<NodeEntry>> nodes_out(ranks);
   std::array<std::uint64_t, 1> depths{0};
-  for (const ExteriorFace& face : faces) {
+  for (const LoneFace& face : faces) {
     const Extent extent = extent_of(face);
     const double margin = 2 * tolerance * extent.longest;
     const Vec3 more{margin, margin, margin};
@@ -149,7 +149,7 @@ std::vector<Touch> touching_nodes(const Comm& comm, std::span<const ExteriorFace
   }
   comm.bit_or(depths);
   std::vector<std::pair<GlobalId, Vec3>> nodes;
-  for (const ExteriorFace& face : faces)
+  for (const LoneFace& face : faces)
     for (std::size_t v = 0; v < 4; ++v) nodes.push_back({face.nodes[v], face.corner[v]});
   std::sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   nodes.erase(std::unique(nodes.begin(), nodes.end(),

@@ -9,7 +9,7 @@
 
 namespace sculpt {
 
-struct ExteriorFace {
+struct LoneFace {
   FaceNodes nodes;  // outward
   GlobalId element;
   std::int32_t block;
@@ -32,7 +32,7 @@ struct Touch {
 // Collective. Nodes that come closer than `tolerance` to the corner of a face that has them not, in units of
 // its shortest edge, or to its inside, in units of the geometric mean of its shortest and longest. faces:
 // those of all ranks, each on one.
-[[nodiscard]] std::vector<Touch> touching_nodes(const Comm& comm, std::span<const ExteriorFace> faces,
+[[nodiscard]] std::vector<Touch> touching_nodes(const Comm& comm, std::span<const LoneFace> faces,
                                                 double tolerance);
 
 }  // namespace sculpt

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "distribute/id_set.hpp"
+#include "distribute/id_index.hpp"
 #include "sculpt/geom/hex.hpp"
 #include "sculpt/mesh/element_share.hpp"
 
@@ -36,7 +36,7 @@ struct LocalFace {
 // Local. Calls visit(span of LocalFace) for every set of faces of these elements with the same four nodes;
 // nodes: those of the corners.
 template <class Visit>
-void for_each_face(const ElementShare& share, const IdSet& nodes, const Visit& visit) {
+void for_each_face(const ElementShare& share, const IdIndex& nodes, const Visit& visit) {
   std::vector<std::int64_t> first(nodes.ids().size() + 1, 0);  // of the faces with the smallest node so
   const auto least = [&](std::size_t e, std::size_t f) {
     const FaceNodes face = face_nodes(share.corner[e], f);

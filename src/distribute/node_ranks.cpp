@@ -14,7 +14,7 @@ struct Record {
 
 }  // namespace
 
-NodeRanks::NodeRanks(const Comm& comm, const ElementShare& share, const IdSet& nodes)
+NodeRanks::NodeRanks(const Comm& comm, const ElementShare& share, const IdIndex& nodes)
     : comm_(comm), ranges_{share.nodes, comm.size()} {
   std::vector<std::vector<Record>> out(static_cast<std::size_t>(comm.size()));
   collectively(comm, "sorting the nodes of the elements", [&] {

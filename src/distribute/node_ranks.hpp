@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "distribute/id_set.hpp"
+#include "distribute/id_index.hpp"
 #include "sculpt/base/even_parts.hpp"
 #include "sculpt/mesh/element_share.hpp"
 #include "sculpt/par/comm.hpp"
@@ -21,7 +21,7 @@ class NodeRanks {
  public:
   // Collective. nodes: those of the corners of the share's elements. Throws AgreedError on numbers that are
   // no nodes.
-  NodeRanks(const Comm& comm, const ElementShare& share, const IdSet& nodes);
+  NodeRanks(const Comm& comm, const ElementShare& share, const IdIndex& nodes);
 
   // Both collective; nodes: ascending, each at an element of some rank.
   // The other ranks that have elements there, ascending in the nodes.

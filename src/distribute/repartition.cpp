@@ -4,14 +4,14 @@
 #include <numeric>
 
 #include "distribute/faces.hpp"
-#include "distribute/id_set.hpp"
+#include "distribute/id_index.hpp"
 #include "sculpt/base/even_parts.hpp"
 #include "sculpt/mesh/node_directory.hpp"
 
 namespace sculpt {
 namespace {
 
-std::vector<Vec3> centres(const Comm& comm, const ElementShare& share, const IdSet& nodes) {
+std::vector<Vec3> centres(const Comm& comm, const ElementShare& share, const IdIndex& nodes) {
   const std::vector<Vec3> position = positions_of(comm, share, nodes.ids());
   std::vector<Vec3> centre;
   centre.reserve(share.corner.size());
@@ -26,7 +26,7 @@ std::vector<Vec3> centres(const Comm& comm, const ElementShare& share, const IdS
 // The elements across the faces of each element.
 class DualGraph {
  public:
-  DualGraph(const Comm& comm, const ElementShare& share, const IdSet& nodes) : share_(share) {
+  DualGraph(const Comm& comm, const ElementShare& share, const IdIndex& nodes) : share_(share) {
     const EvenParts ranges{share.nodes, comm.size()};
     std::vector<std::vector<Open>> open(static_cast<std::size_t>(comm.size()));
     for_each_face(share, nodes, [&](std::span<const LocalFace> faces) {
@@ -149,7 +149,7 @@ void repartition(const Comm& comm, ElementShare& share, PartitionMethod method) 
   if (comm.size() == 1) return;
   std::vector<std::int32_t> to;
   {
-    const IdSet nodes(share.corner);
+    const IdIndex nodes(share.corner);
     const std::vector<Vec3> centre = centres(comm, share, nodes);
     if (method == PartitionMethod::kGraph) {
       const DualGraph graph(comm, share, nodes);

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <limits>
 
-#include "distribute/id_set.hpp"
+#include "distribute/id_index.hpp"
 #include "distribute/node_ranks.hpp"
 #include "sculpt/base/fixed_point.hpp"
 #include "sculpt/mesh/colour.hpp"
@@ -30,7 +30,8 @@ void make_distinct(std::vector<GlobalId>& ids) {
 
 class GhostCollector {
  public:
-  GhostCollector(const Comm& comm, const ElementShare& share, const IdSet& nodes, const NodeRanks& directory)
+  GhostCollector(const Comm& comm, const ElementShare& share, const IdIndex& nodes,
+                 const NodeRanks& directory)
       : comm_(comm),
         share_(share),
         nodes_(nodes),
@@ -113,7 +114,7 @@ class GhostCollector {
 
   const Comm& comm_;
   const ElementShare& share_;
-  const IdSet& nodes_;  // of this rank's elements
+  const IdIndex& nodes_;  // of this rank's elements
   const NodeRanks& directory_;
   std::vector<std::vector<std::int32_t>> sent_;  // per rank: local elements that it has, ascending
   std::vector<GlobalId> last_;                   // nodes that the last layer came to first
@@ -184,14 +185,14 @@ UnstructuredMesh unstructured_mesh(const Comm& comm, const ElementShare& share, 
   std::vector<std::array<GlobalId, 8>> corners;
   std::vector<std::int32_t> owners;
   {
-    const IdSet own(share.corner);
+    const IdIndex own(share.corner);
     const NodeRanks directory(comm, share, own);
     GhostCollector collector(comm, share, own, directory);
     for (int layer = 1; layer <= layers; ++layer) collector.add_layer(layer);
     collectively(comm, "building the mesh of a rank", [&] {
       check(layers >= 1 && layers <= 255, "a number of ghost layers");
       corners = merge_cells(comm, share, collector.take(), mesh);
-      const IdSet nodes(corners);
+      const IdIndex nodes(corners);
       cells.node_id = nodes.ids();
       cells.hexes.resize(corners.size());
       for (std::size_t h = 0; h < corners.size(); ++h)

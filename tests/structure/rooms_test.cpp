@@ -146,6 +146,22 @@ TEST(Rooms, LeaveMessagesToPar) {
   }
 }
 
+// Two types of one name would be taken for each other by the linker.
+TEST(Headers, DefineEveryTypeOnce) {
+  const std::regex definition(R"((?:^|\n)(?:struct|class|enum class) (\w+)[^;{\n]*\{)");
+  std::map<std::string, std::string> defined;
+  for (const std::string folder : {"src", "include"})
+    for (const fs::path& path : sources_below(folder)) {
+      if (path.extension() != ".hpp") continue;
+      const std::string text = text_of(path), where = fs::relative(path, kRoot).string();
+      for (std::sregex_iterator d(text.begin(), text.end(), definition), end; d != end; ++d) {
+        const auto [first, is_new] = defined.emplace((*d)[1].str(), where);
+        EXPECT_TRUE(is_new) << (*d)[1] << " in " << where << " and " << first->second;
+      }
+    }
+  EXPECT_GT(defined.size(), 100U);
+}
+
 TEST(Files, AreReadable) {
   for (const std::string folder : {"src", "include", "apps", "tests"})
     for (const fs::path& path : sources_below(folder)) {

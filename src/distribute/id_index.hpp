@@ -9,9 +9,9 @@
 
 namespace sculpt {
 
-class IdSet {
+class IdIndex {
  public:
-  explicit IdSet(std::span<const std::array<GlobalId, 8>> corners);
+  explicit IdIndex(std::span<const std::array<GlobalId, 8>> corners);
   [[nodiscard]] const std::vector<GlobalId>& ids() const { return ids_; }  // ascending
   [[nodiscard]] LocalId index(GlobalId id) const;                          // kNone for others
 

@@ -1,4 +1,4 @@
-#include "distribute/id_set.hpp"
+#include "distribute/id_index.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 using Corners = std::vector<std::array<GlobalId, 8>>;
 
 void expect_set(const Corners& corners, const std::vector<GlobalId>& ids) {
-  const IdSet set(corners);
+  const IdIndex set(corners);
   EXPECT_EQ(set.ids(), ids);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     EXPECT_EQ(set.index(ids[i]), static_cast<LocalId>(i));
@@ -21,14 +21,14 @@ void expect_set(const Corners& corners, const std::vector<GlobalId>& ids) {
   EXPECT_EQ(set.index(GlobalId{1} << 60), kNone);
 }
 
-TEST(IdSet, HoldsNumbersNearEachOther) {
+TEST(IdIndex, HoldsNumbersNearEachOther) {
   expect_set({{100, 3, 64, 63, 65, 100, 7, 130}, {3, 200, 201, 202, 203, 204, 205, 206}},
              {3, 7, 63, 64, 65, 100, 130, 200, 201, 202, 203, 204, 205, 206});
 }
-TEST(IdSet, HoldsNumbersFarFromEachOther) {
+TEST(IdIndex, HoldsNumbersFarFromEachOther) {
   expect_set({{GlobalId{1} << 50, 3, 64, 3, 65, 100, 7, 130}}, {3, 7, 64, 65, 100, 130, GlobalId{1} << 50});
 }
-TEST(IdSet, MayBeEmpty) { expect_set({}, {}); }
+TEST(IdIndex, MayBeEmpty) { expect_set({}, {}); }
 
 }  // namespace
 }  // namespace sculpt

@@ -1,11 +1,11 @@
-#include "distribute/id_set.hpp"
+#include "distribute/id_index.hpp"
 
 #include <algorithm>
 #include <bit>
 
 namespace sculpt {
 
-IdSet::IdSet(std::span<const std::array<GlobalId, 8>> corners) {
+IdIndex::IdIndex(std::span<const std::array<GlobalId, 8>> corners) {
   if (corners.empty()) return;
   GlobalId lo = corners[0][0], hi = lo;
   for (const auto& hex : corners)
@@ -38,7 +38,7 @@ IdSet::IdSet(std::span<const std::array<GlobalId, 8>> corners) {
   }
 }
 
-LocalId IdSet::index(GlobalId id) const {
+LocalId IdIndex::index(GlobalId id) const {
   if (bits_.empty()) {
     const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
     return found != ids_.end() && *found == id ? static_cast<LocalId>(found - ids_.begin()) : kNone;

@@ -43,6 +43,9 @@ class ExteriorFinder {
     find_complete_nodes();
     find_facets();
     find_edges();
+    for_each_edge([&](std::span<const FacetEdge> edge) {
+      if (edge.size() > 2 && out_.pinched < 0) out_.pinched = cells_.node_id[at(edge[0].a)];
+    });
     find_surfaces();
     number_sides();
     out_.holds.assign(2, {});  // points: Exterior::kKept, Exterior::kVertex

@@ -22,6 +22,7 @@
 #include "sculpt/input/input_mesh.hpp"
 #include "sculpt/input/pamgen.hpp"
 #include "sculpt/mesh/edit.hpp"
+#include "sculpt/par/finding.hpp"
 #include "sculpt/vfrac/fractions.hpp"
 
 namespace sculpt {
@@ -170,6 +171,7 @@ class InputMeshOverlay {
     for (std::size_t c = 0; c < kept.size(); ++c) kept[c] = kept_block_[at(full.block[c])];
     overlay.sets = collect_sets(cells);
     find_exterior(comm_, cells, face_neighbours(cells), kept, exterior_options(cells, overlay.sets));
+    refuse_pinched(cells);
     tell_exterior(cells);
     stages_.end("distribute");
 
@@ -190,6 +192,7 @@ class InputMeshOverlay {
       value.insert(value.end(), full.value.begin() + static_cast<std::ptrdiff_t>(first),
                    full.value.begin() + static_cast<std::ptrdiff_t>(first + per_hex));
     }
+    refuse_empty_blocks(cell.size());
     HexMaterials materials =
         measure({cell.size(), [&](std::size_t h) { return cells.corners(cell[h]); }}, element, value);
     if (!keeps_blocks()) block.clear();
@@ -224,6 +227,26 @@ class InputMeshOverlay {
     return overlay;
   }
 
+  // Layers of two parts cannot end at one edge.
+  void refuse_pinched(const HexMesh& cells) const {
+    Finding pinched;
+    if (const GlobalId id = cells.exterior.pinched; id >= 0) {
+      const auto found = std::lower_bound(cells.node_id.begin(), cells.node_id.end(), id);
+      const Vec3& p = cells.position[static_cast<std::size_t>(found - cells.node_id.begin())];
+      pinched = {
+          id, fmt::format("'{}': the hexes {} touch each other along an edge only, at node {} ({:g}, {:g}, "
+                          "{:g}); expected two boundary faces at every edge of their boundary",
+                          path(), restricted() ? "that input_mesh_blocks fills" : "of the mesh", id + 1, p.x,
+                          p.y, p.z)};
+    }
+    refuse_first(comm_, pinched);
+  }
+  void refuse_empty_blocks(std::size_t mine) const {
+    if (comm_.sum(static_cast<std::int64_t>(mine)) == 0)
+      throw AgreedError(
+          fmt::format("option 'input_mesh_blocks' ({}): the blocks to be filled have no hexes in '{}'",
+                      deck_.given_options.place("input_mesh_blocks"), path()));
+  }
   void tell_exterior(const HexMesh& cells) const {
     const Exterior& exterior = cells.exterior;
     std::int64_t facets = 0;

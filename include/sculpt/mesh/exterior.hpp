@@ -49,7 +49,10 @@ struct Exterior {
   std::vector<Hold> holds;           // the first two as above
   std::vector<LocalId> patch;        // facets of the holds
   std::vector<std::uint8_t> curved;  // per surface: 1 = it does not lie in one plane; the same on all ranks
-  bool slides = false;               // nodes may slide across the edges between facets of one surface
+  // The smaller node of the first edge at which more than two faces meet, of those that this rank sees; -1:
+  // none.
+  GlobalId pinched = -1;
+  bool slides = false;  // nodes may slide across the edges between facets of one surface
 
   [[nodiscard]] bool empty() const { return hold_of.empty(); }
   [[nodiscard]] LocalId facet_at(LocalId hex, int face) const;  // kNone: no face on the boundary

@@ -48,9 +48,9 @@ struct Overlay {
 };
 
 // Collective. Opens and reads the input of the deck. Adjacency is left for later.
-// The same on the grid of a source.
+[[nodiscard]] Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages);
+// The same for a source that is open, on its grid.
 [[nodiscard]] Overlay read_on_grid(const Comm& comm, const Deck& deck, MaterialSource& source, const Log& log,
                                    Stages& stages);
-[[nodiscard]] Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages);
 
 }  // namespace sculpt

@@ -17,6 +17,7 @@
 #include "pipeline/layers.hpp"
 #include "pipeline/overlay.hpp"
 #include "pipeline/periodicity.hpp"
+#include "pipeline/unstructured_overlay.hpp"
 #include "sculpt/base/fixed_point.hpp"
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/exterior.hpp"
@@ -59,9 +60,9 @@ void refuse_empty_mesh(const Comm& comm, const Overlay& overlay, const std::vect
   if (comm.sum(meshed) > 0) return;
   if (overlay.grid[0] == 0)
     throw Error(
-        "nothing to mesh: none of the hexes of the input mesh belongs to a material; the geometry lies "
-        "outside "
-        "of them or fills less than half of every one");
+        "nothing to mesh: none of the hexes of the input mesh that are to be filled belongs to a material; "
+        "the "
+        "geometry lies outside of them or fills less than half of every one");
   throw Error(fmt::format(
       "nothing to mesh: none of the {} x {} x {} cells of the grid belongs to a material; the geometry "
       "lies outside the box or fills less than half of every cell",
@@ -306,7 +307,7 @@ Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
   overlay.fractions = {};
   overlay.around.reset();
   SidePlan sides = generate_geometry(comm, deck, overlay, shape.faces, drop, log);
-  share_exterior_faces(overlay.cells, sides);
+  if (deck.gen_sidesets != kSidesetsOff && has_input_mesh(deck)) share_exterior_faces(overlay.cells, sides);
   stages.end("generate geometry");
   log.line("(7/9) generating buffer hexes...");
   log.line("(8/9) generating interior hexes...");

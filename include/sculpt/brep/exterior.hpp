@@ -38,7 +38,8 @@ void hold_inside(const Comm& comm, HexMesh& cells, const FaceNeighbours& neighbo
 // Collective. Marks the facets that must stay whole, surface by surface: those of curved surfaces that
 // interfaces meet, which otherwise would not keep their shape (where nodes may slide across the edges they
 // need not); and those of surfaces at whose edges an interface runs along the edge, since no copy of a node
-// could both keep to the edge and leave room for the layers. `exterior` is that of the cells.
+// could both keep to the edge and leave room for the layers; and all surfaces that meet one of these, or a
+// kept block, without much of a bend. `exterior` is that of the cells.
 void keep_whole(const Comm& comm, Exterior& exterior, const HexMesh& cells, const Interfaces& faces);
 
 }  // namespace sculpt

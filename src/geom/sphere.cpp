@@ -32,14 +32,19 @@ std::size_t Sphere::steepest_axis(const Vec3& point) const {
   return axis;
 }
 
-void Sphere::chords(std::size_t axis, double u, std::span<const double> v, std::span<double> lo,
-                    std::span<double> hi) const {
+bool Sphere::is_gentle(const Box& box) const {
+  constexpr double kBoxes = 4;  // across the ball
+  return kBoxes * largest(box.hi - box.lo) <= 2 * radius_;
+}
+
+void Sphere::chords(std::size_t axis, double u, std::span<const double> v, ChordRow& row) const {
   const double along = center_[axis], across = u - center_[(axis + 1) % 3],
                centre_v = center_[(axis + 2) % 3];
   const double square = radius_ * radius_ - across * across;
   const double* const at = v.data();
-  double* const from = lo.data();
-  double* const to = hi.data();
+  const ChordRow::Layer layer = row.add_layer();
+  double* const from = layer.lo.data();
+  double* const to = layer.hi.data();
   const std::size_t count = v.size();
   for (std::size_t l = 0; l < count; ++l) {
     const double w = at[l] - centre_v;
@@ -50,16 +55,16 @@ void Sphere::chords(std::size_t axis, double u, std::span<const double> v, std::
   }
 }
 
-void Sphere::line_chords(std::span<const Vec3> from, std::span<const Vec3> step, std::span<double> lo,
-                         std::span<double> hi) const {
+void Sphere::line_chords(std::span<const Vec3> from, std::span<const Vec3> step, ChordRow& row) const {
+  const ChordRow::Layer layer = row.add_layer();
   const double square = radius_ * radius_;
   for (std::size_t l = 0; l < from.size(); ++l) {
     const Vec3 off = from[l] - center_;
     const double a = dot(step[l], step[l]), b = dot(off, step[l]),
                  rest = b * b - a * (dot(off, off) - square);
     const double per = a > 0 ? 1 / a : 0, half = std::sqrt(rest > 0 ? rest : 0.0);
-    lo[l] = (-b - half) * per;
-    hi[l] = (-b + half) * per;
+    layer.lo[l] = (-b - half) * per;
+    layer.hi[l] = (-b + half) * per;
   }
 }
 

@@ -43,7 +43,7 @@ void CellMeter::measure(const Box& cell, std::span<const std::int32_t> candidate
   if (const auto sole = sole_material(cell, candidates)) {
     fractions.add(*sole, 1.0);
   } else {
-    covered_.assign(reaching_.size(), 0.0);
+    look_into(cell);
     const Vec3 centre = 0.5 * (cell.lo + cell.hi);
     const auto steepest = [&](const Shape& s) { return s.steepest_axis(centre); };
     const std::size_t axis = steepest(shape(0));
@@ -71,7 +71,7 @@ void CellMeter::measure(const HexCorners& hex, std::span<const std::int32_t> can
   if (const auto sole = sole_selected()) {
     fractions.add(*sole, 1.0);
   } else {
-    covered_.assign(reaching_.size(), 0.0);
+    look_into(bounds);
     const Vec3 centre = centre_of(hex);
     const std::array<Vec3, 3> edges = mean_edges(hex);
     const auto steepest = [&](const Shape& s) { return steepest_parameter(s, centre, edges); };
@@ -120,15 +120,19 @@ void CellMeter::select(const Box& bounds, std::span<const std::int32_t> candidat
 // shape that fills the cell has no surface there.
 template <class Steepest>
 bool CellMeter::is_gentle(const Box& cell, const Steepest& steepest) const {
-  constexpr double kCells = 4;  // across a shape
   const std::size_t axis = steepest(shape(0));
-  for (std::size_t s = 0; s + (filled_ ? 1 : 0) < reaching_.size(); ++s) {
-    if (steepest(shape(s)) != axis) return false;
-    const Box bounds = shape(s).bounds();
-    for (std::size_t d = 0; d < 3; ++d)
-      if (bounds.hi[d] - bounds.lo[d] < kCells * (cell.hi[d] - cell.lo[d])) return false;
-  }
+  for (std::size_t s = 0; s + (filled_ ? 1 : 0) < reaching_.size(); ++s)
+    if (steepest(shape(s)) != axis || !shape(s).is_gentle(cell)) return false;
   return true;
+}
+
+// Gets the shapes that count ready to be asked for their chords.
+void CellMeter::look_into(const Box& bounds) {
+  covered_.assign(reaching_.size(), 0.0);
+  local_.clear();
+  if (storage_.size() < reaching_.size()) storage_.resize(reaching_.size());
+  for (std::size_t s = 0; s < reaching_.size(); ++s)
+    local_.push_back(&shapes_[reaching_[s]].shape->within(bounds, storage_[s]));
 }
 
 // Adds the weighted shares of the cell that the shapes get of lines x lines lines along the axis.
@@ -142,8 +146,6 @@ void CellMeter::sample(const Box& cell, std::size_t axis, std::size_t lines, dou
     const Box bounds = shape(s).bounds();
     chords_[s].rows = lines_between(cell, axis_u, lines, bounds);
     chords_[s].columns = lines_between(cell, axis_v, lines, bounds);
-    chords_[s].lo.fill(to);  // no chord in the columns beyond its own
-    chords_[s].hi.fill(from);
     chords_[s].length.fill(0);
   }
   for (std::size_t l = 0; l < lines; ++l) {
@@ -152,8 +154,8 @@ void CellMeter::sample(const Box& cell, std::size_t axis, std::size_t lines, dou
     for (std::size_t s = 0; s < reaching_.size(); ++s) {
       if (l < chords_[s].rows.first || l >= chords_[s].rows.last) continue;
       const std::size_t first = chords_[s].columns.first, count = chords_[s].columns.last - first;
-      shape(s).chords(axis, u, {v.data() + first, count}, {chords_[s].lo.data() + first, count},
-                      {chords_[s].hi.data() + first, count});
+      chords_[s].row.begin(lines, first, count);
+      shape(s).chords(axis, u, {v.data() + first, count}, chords_[s].row);
       in_row_.push_back(s);
     }
     add_row(from, to, lines);
@@ -189,16 +191,19 @@ void CellMeter::add_hex_row(const HexLines& hex, double u, std::size_t lines, do
   }
   in_row_.clear();
   for (std::size_t s = 0; s < reaching_.size(); ++s) {
-    double* const lo = chords_[s].lo.data();
-    double* const hi = chords_[s].hi.data();
-    shape(s).line_chords({from_.data(), lines}, {step_.data(), lines}, {lo, lines}, {hi, lines});
+    ChordRow& row = chords_[s].row;
+    row.begin(lines);
+    shape(s).line_chords({from_.data(), lines}, {step_.data(), lines}, row);
     bool any = false;
-    for (std::size_t l = 0; l < lines; ++l) {
-      const double start = std::max(lo[l], 0.0), end = std::min(hi[l], 1.0);
-      const bool meets = start < end;
-      lo[l] = meets ? line_[l].volume(start) : 0;
-      hi[l] = meets ? line_[l].volume(end) : 0;
-      any = any || meets;
+    for (std::size_t layer = 0; layer < row.layers(); ++layer) {
+      const auto [lo, hi] = row.layer(layer);
+      for (std::size_t l = 0; l < lines; ++l) {
+        const double start = std::max(lo[l], 0.0), end = std::min(hi[l], 1.0);
+        const bool meets = start < end;
+        lo[l] = meets ? line_[l].volume(start) : 0;
+        hi[l] = meets ? line_[l].volume(end) : 0;
+        any = any || meets;
+      }
     }
     if (any) in_row_.push_back(s);
   }
@@ -208,60 +213,80 @@ void CellMeter::add_hex_row(const HexLines& hex, double u, std::size_t lines, do
 // Gives the shapes of the row what they get of it, all lines side by side if possible.
 void CellMeter::add_row(double from, double to, std::size_t lines) {
   const auto add_all = [&] {
-    for (const std::size_t s : in_row_)
-      add_common(chords_[s], chords_[s], 1, {from, to}, lines, chords_[s].length);
+    for (const std::size_t s : in_row_) add_pieces(chords_[s].row, {from, to}, chords_[s].length);
   };
   if (in_row_.size() <= 2) {
     add_all();
     if (in_row_.size() == 2) {  // the first one keeps what both have
       Chords& second = chords_[in_row_[1]];
-      add_common(chords_[in_row_[0]], second, -1, {from, to}, lines, second.length);
+      add_common(chords_[in_row_[0]].row, second.row, -1, {from, to}, second.length);
     }
     return;
   }
   Row common{};
   for (std::size_t a = 1; a < in_row_.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      add_common(chords_[in_row_[a]], chords_[in_row_[b]], 1, {from, to}, lines, common);
+      add_common(chords_[in_row_[a]].row, chords_[in_row_[b]].row, 1, {from, to}, common);
   if (std::all_of(common.begin(), common.end(), [](double c) { return c == 0; }))
     add_all();
   else
     for (std::size_t column = 0; column < lines; ++column) share_line({from, to}, column);
 }
 
-// Adds to `sum`, with the sign, the length that the chords of two shapes have in common within a piece of
-// each line.
-void CellMeter::add_common(const Chords& a, const Chords& b, double sign, const Piece& piece,
-                           std::size_t lines, Row& sum) {
-  const double *const lo_a = a.lo.data(), *const hi_a = a.hi.data();
-  const double *const lo_b = b.lo.data(), *const hi_b = b.hi.data();
+// Adds to `sum` the length of the pieces within a piece of each line.
+void CellMeter::add_pieces(const ChordRow& row, const Piece& piece, Row& sum) {
   const double from = piece.from, to = piece.to;
-  for (std::size_t l = 0; l < lines; ++l) {
-    const double lo = lo_a[l] > lo_b[l] ? lo_a[l] : lo_b[l], hi = hi_a[l] < hi_b[l] ? hi_a[l] : hi_b[l];
-    const double start = lo > from ? lo : from, end = hi < to ? hi : to;
-    sum[l] += sign * (end > start ? end - start : 0.0);
+  for (std::size_t layer = 0; layer < row.layers(); ++layer) {
+    const double *const lo = row.lo(layer), *const hi = row.hi(layer);
+    for (std::size_t l = 0; l < row.lines(); ++l) {
+      const double start = lo[l] > from ? lo[l] : from, end = hi[l] < to ? hi[l] : to;
+      sum[l] += end > start ? end - start : 0.0;
+    }
   }
+}
+
+// Adds, with the sign, the length that the pieces of two shapes have in common within a piece of each line.
+void CellMeter::add_common(const ChordRow& a, const ChordRow& b, double sign, const Piece& piece, Row& sum) {
+  const double from = piece.from, to = piece.to;
+  for (std::size_t i = 0; i < a.layers(); ++i)
+    for (std::size_t j = 0; j < b.layers(); ++j) {
+      const double *const lo_a = a.lo(i), *const hi_a = a.hi(i);
+      const double *const lo_b = b.lo(j), *const hi_b = b.hi(j);
+      for (std::size_t l = 0; l < a.lines(); ++l) {
+        const double lo = lo_a[l] > lo_b[l] ? lo_a[l] : lo_b[l], hi = hi_a[l] < hi_b[l] ? hi_a[l] : hi_b[l];
+        const double start = lo > from ? lo : from, end = hi < to ? hi : to;
+        sum[l] += sign * (end > start ? end - start : 0.0);
+      }
+    }
 }
 
 // Deals the line out: each shape takes what is left of its chord.
 void CellMeter::share_line(const Piece& whole, std::size_t column) {
   left_.assign(1, whole);
   for (const std::size_t s : in_row_) {
-    const double lo = chords_[s].lo[column], hi = chords_[s].hi[column];
-    if (!(lo < hi)) continue;
-    next_.clear();
-    for (const Piece& piece : left_) {
-      const double start = std::max(piece.from, lo), end = std::min(piece.to, hi);
-      if (!(start < end)) {
-        next_.push_back(piece);
-        continue;
-      }
-      chords_[s].length[column] += end - start;
-      if (piece.from < start) next_.push_back({piece.from, start});
-      if (end < piece.to) next_.push_back({end, piece.to});
-    }
-    left_.swap(next_);
+    const ChordRow& row = chords_[s].row;
+    for (std::size_t layer = 0; layer < row.layers(); ++layer)
+      chords_[s].length[column] += take({row.lo(layer)[column], row.hi(layer)[column]});
   }
+}
+
+// Takes the chord out of what is left of the line; the length that there was.
+double CellMeter::take(const Piece& chord) {
+  if (!(chord.from < chord.to)) return 0;
+  double length = 0;
+  next_.clear();
+  for (const Piece& piece : left_) {
+    const double start = std::max(piece.from, chord.from), end = std::min(piece.to, chord.to);
+    if (!(start < end)) {
+      next_.push_back(piece);
+      continue;
+    }
+    length += end - start;
+    if (piece.from < start) next_.push_back({piece.from, start});
+    if (end < piece.to) next_.push_back({end, piece.to});
+  }
+  left_.swap(next_);
+  return length;
 }
 
 // Turns the shares into fractions by material, ascending, whose sum is 1.

@@ -41,15 +41,15 @@ class CellMeter {
   // What a shape cuts from the lines of one row. It has no chords beyond its rows and columns.
   struct Chords {
     Lines rows, columns;
-    Row lo, hi;
-    Row length;  // by column: what the shape has got so far
+    ChordRow row;  // the present one
+    Row length;    // by column: what the shape has got so far
   };
   struct Share {
     std::int32_t material;
     double value;
   };
 
-  [[nodiscard]] const Shape& shape(std::size_t s) const { return *shapes_[reaching_[s]].shape; }
+  [[nodiscard]] const Shape& shape(std::size_t s) const { return *local_[s]; }
   [[nodiscard]] std::int32_t material(std::size_t s) const { return shapes_[reaching_[s]].material; }
   template <class Fills>
   void select(const Box& bounds, std::span<const std::int32_t> candidates, const Fills& fills);
@@ -62,18 +62,22 @@ class CellMeter {
   [[nodiscard]] static Lines lines_between(const Box& cell, std::size_t axis, std::size_t lines,
                                            const Box& bounds);
   void add_row(double from, double to, std::size_t lines);
-  static void add_common(const Chords& a, const Chords& b, double sign, const Piece& piece, std::size_t lines,
-                         Row& sum);
+  static void add_pieces(const ChordRow& row, const Piece& piece, Row& sum);
+  static void add_common(const ChordRow& a, const ChordRow& b, double sign, const Piece& piece, Row& sum);
   void share_line(const Piece& whole, std::size_t column);
+  [[nodiscard]] double take(const Piece& chord);
+  void look_into(const Box& bounds);
   void append(Fractions& fractions);
 
   std::span<const InsertedShape> shapes_;
   std::int32_t outside_;
   std::vector<std::size_t> reaching_;  // positions in shapes_
-  bool filled_ = false;                // the last of them fills the cell
-  std::vector<double> covered_;        // per reaching shape: its share of the cell
-  std::vector<Chords> chords_;         // per reaching shape
-  std::vector<std::size_t> in_row_;    // the reaching shapes that may meet the present row
+  std::vector<const Shape*> local_;    // the same as they are within the cell
+  std::vector<std::unique_ptr<Shape>> storage_;
+  bool filled_ = false;              // the last of them fills the cell
+  std::vector<double> covered_;      // per reaching shape: its share of the cell
+  std::vector<Chords> chords_;       // per reaching shape
+  std::vector<std::size_t> in_row_;  // the reaching shapes that may meet the present row
   std::vector<Piece> left_, next_;
   std::array<HexLines::Line, kMostLines> line_;  // the present row of a hex
   std::array<Vec3, kMostLines> from_, step_;

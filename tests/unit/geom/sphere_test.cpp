@@ -33,13 +33,16 @@ TEST(Sphere, ChordsAlongEveryAxis) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
     const std::array<double, 3> across{centre[v] + 3, centre[v] + 6, centre[v]};
-    std::array<double, 3> lo{}, hi{};
-    kBall.chords(axis, centre[u], across, lo, hi);
+    ChordRow row;
+    row.begin(3);
+    kBall.chords(axis, centre[u], across, row);
+    const auto [lo, hi] = row.layer(0);
     EXPECT_NEAR(lo[0], centre[axis] - 4, 1e-14);
     EXPECT_NEAR(hi[0], centre[axis] + 4, 1e-14);
     EXPECT_GE(lo[1], hi[1]);
     EXPECT_NEAR(hi[2] - lo[2], 10, 1e-14);
-    kBall.chords(axis, centre[u] + 4, across, lo, hi);
+    row.begin(3);
+    kBall.chords(axis, centre[u] + 4, across, row);
     EXPECT_NEAR(hi[0] - lo[0], 0, 1e-7);
     EXPECT_NEAR(hi[2] - lo[2], 6, 1e-14);
   }

@@ -71,8 +71,11 @@ TEST(Sphere, CutsAnyLine) {
   const Sphere ball({1, 2, 3}, 2);
   const std::vector<Vec3> from{{1, 2, 3}, {-3, 2, 3}, {1, 5, 3}, {1, 2, 3}, {2, 3, 3}},
       step{{0, 0, 4}, {2, 0, 0}, {1, 0, 0}, {0, 0, 0}, {-1, -1, 0}};
-  std::vector<double> lo(5), hi(5);
-  ball.line_chords(from, step, lo, hi);
+  ChordRow row;
+  row.begin(5);
+  ball.line_chords(from, step, row);
+  ASSERT_EQ(row.layers(), 1U);
+  const double *const lo = row.lo(0), *const hi = row.hi(0);
   EXPECT_DOUBLE_EQ(lo[0], -0.5);
   EXPECT_DOUBLE_EQ(hi[0], 0.5);
   EXPECT_DOUBLE_EQ(lo[1], 1);

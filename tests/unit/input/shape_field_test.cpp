@@ -143,7 +143,8 @@ TEST(CellMeter, MeasuresBallsOfAllSizes) {
       }
       const Sphere ball(centre, radius);
       constexpr std::size_t kLines = 250;
-      std::vector<double> v(kLines), lo(kLines), hi(kLines);
+      std::vector<double> v(kLines);
+      ChordRow row;
       const std::size_t axis = ball.steepest_axis(0.5 * (cell.lo + cell.hi));
       const auto line = [&](std::size_t a, std::size_t l) {
         return cell.lo[a] + (static_cast<double>(l) + 0.5) / kLines;
@@ -151,7 +152,9 @@ TEST(CellMeter, MeasuresBallsOfAllSizes) {
       for (std::size_t l = 0; l < kLines; ++l) v[l] = line((axis + 2) % 3, l);
       double expected = 0;
       for (std::size_t l = 0; l < kLines; ++l) {
-        ball.chords(axis, line((axis + 1) % 3, l), v, lo, hi);
+        row.begin(kLines);
+        ball.chords(axis, line((axis + 1) % 3, l), v, row);
+        const auto [lo, hi] = row.layer(0);
         for (std::size_t k = 0; k < kLines; ++k)
           expected += std::max(0.0, std::min(hi[k], cell.hi[axis]) - std::max(lo[k], cell.lo[axis]));
       }

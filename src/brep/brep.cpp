@@ -62,7 +62,7 @@ std::vector<std::uint8_t> settled_nodes(const HexMesh& cells, const Interfaces& 
   return settled;
 }
 
-// Joins the two quads of every edge that has exactly two.
+// Joins the two quads of every edge that has exactly two, of one part.
 DisjointSets join_quads(const Interfaces& faces, const std::vector<std::uint8_t>& settled) {
   DisjointSets sets(faces.quads.size());
   std::vector<std::pair<LocalId, LocalId>> ends;  // (other end of the edge, quad)
@@ -79,7 +79,11 @@ DisjointSets join_quads(const Interfaces& faces, const std::vector<std::uint8_t>
     for (std::size_t e = 0; e < ends.size();) {
       std::size_t last = e;
       while (last < ends.size() && ends[last].first == ends[e].first) ++last;
-      if (last - e == 2) sets.join(ends[e].second, ends[e + 1].second);
+      const auto one_part = [&](LocalId a, LocalId b) {
+        return faces.part.empty() || faces.part[at(a)] == faces.part[at(b)];
+      };
+      if (last - e == 2 && one_part(ends[e].second, ends[e + 1].second))
+        sets.join(ends[e].second, ends[e + 1].second);
       e = last;
     }
   }

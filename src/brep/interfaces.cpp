@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace sculpt {
 namespace {
@@ -50,27 +51,34 @@ void find_node_quads(Interfaces& out) {
   }
 }
 
-// An edge is a curve edge unless exactly two quads meet at it.
+// Calls visit(other end, whether the edge is one of a curve) for the edges of quads at an interface node, by
+// ascending end. An edge is one of a curve unless exactly two quads of one part meet at it.
+template <class Visit>
+void for_each_edge(const Interfaces& faces, std::size_t i, std::vector<std::pair<LocalId, LocalId>>& ends,
+                   Visit&& visit) {
+  ends.clear();
+  for (const LocalId item : faces.node_quads[i]) {
+    const auto& node = faces.quads[at(item / 4)].node;
+    for (const int turn : {1, 3})
+      ends.emplace_back(faces.index_of[at(node[static_cast<std::size_t>((item + turn) % 4)])], item / 4);
+  }
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t e = 0; e < ends.size();) {
+    std::size_t last = e;
+    while (last < ends.size() && ends[last].first == ends[e].first) ++last;
+    const bool smooth = last - e == 2 && (faces.part.empty() || faces.part[at(ends[e].second)] ==
+                                                                    faces.part[at(ends[e + 1].second)]);
+    visit(ends[e].first, !smooth);
+    e = last;
+  }
+}
+
 void find_neighbours(Interfaces& out) {
-  std::vector<LocalId> ends;
+  std::vector<std::pair<LocalId, LocalId>> ends;
   out.neighbours.reserve(out.nodes.size(), 4 * out.nodes.size());
   for (std::size_t i = 0; i < out.nodes.size(); ++i) {
-    ends.clear();
-    for (const LocalId item : out.node_quads[i]) {
-      const auto& node = out.quads[at(item / 4)].node;
-      ends.push_back(out.index_of[at(node[static_cast<std::size_t>((item + 1) % 4)])]);
-      ends.push_back(out.index_of[at(node[static_cast<std::size_t>((item + 3) % 4)])]);
-    }
-    std::sort(ends.begin(), ends.end());
-    for (std::size_t e = 0; e < ends.size();) {
-      std::size_t last = e;
-      while (last < ends.size() && ends[last] == ends[e]) ++last;
-      out.neighbours.add(ends[e]);
-      if (last - e != 2) out.curve_neighbours.add(ends[e]);
-      e = last;
-    }
+    for_each_edge(out, i, ends, [&](LocalId end, bool) { out.neighbours.add(end); });
     out.neighbours.end_entry();
-    out.curve_neighbours.end_entry();
   }
 }
 
@@ -86,6 +94,21 @@ NodeClass class_of(const HexMesh& mesh, const Interfaces& faces, std::size_t i) 
   return NodeClass::kCurve;
 }
 
+// Which nodes lie on curves, and what they are there.
+void find_curves(const HexMesh& mesh, Interfaces& out) {
+  std::vector<std::pair<LocalId, LocalId>> ends;
+  out.curve_neighbours = {};
+  for (std::size_t i = 0; i < out.nodes.size(); ++i) {
+    for_each_edge(out, i, ends, [&](LocalId end, bool on_curve) {
+      if (on_curve) out.curve_neighbours.add(end);
+    });
+    out.curve_neighbours.end_entry();
+  }
+  out.kind.clear();
+  out.kind.reserve(out.nodes.size());
+  for (std::size_t i = 0; i < out.nodes.size(); ++i) out.kind.push_back(class_of(mesh, out, i));
+}
+
 }  // namespace
 
 Interfaces trace_interfaces(const HexMesh& mesh, const FaceNeighbours& neighbours) {
@@ -94,9 +117,13 @@ Interfaces trace_interfaces(const HexMesh& mesh, const FaceNeighbours& neighbour
   number_nodes(mesh, out);
   find_node_quads(out);
   find_neighbours(out);
-  out.kind.reserve(out.nodes.size());
-  for (std::size_t i = 0; i < out.nodes.size(); ++i) out.kind.push_back(class_of(mesh, out, i));
+  find_curves(mesh, out);
   return out;
+}
+
+void divide_surfaces(const HexMesh& mesh, Interfaces& faces, std::vector<std::int32_t> part) {
+  faces.part = std::move(part);
+  find_curves(mesh, faces);
 }
 
 }  // namespace sculpt

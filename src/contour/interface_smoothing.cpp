@@ -12,6 +12,7 @@ constexpr double kShrink = 0.5;                // share of the way in the shrink
 constexpr double kFarthest = 0.45;             // from the grid position, in cells per axis
 constexpr double kFarthestFromContour = 0.55;  // by smoothing without projection, in cells
 constexpr double kFarthestProjected = 0.75;    // the same where nodes are held on the interface
+constexpr double kFarthestTied = 1;            // the same of tied nodes
 constexpr double kRounding = 1e-12;            // shorter ways to the interface, in cells, are none
 
 class Smoother {
@@ -40,10 +41,15 @@ class Smoother {
     share_positions(mesh_, exchange_, faces_.nodes, x_);
   }
 
-  void project(const std::vector<Crossing>& crossings, const ExactSurface& exact) {
+  void project(const std::vector<Crossing>& crossings, const InterfaceSmoothing& options) {
     for (const LocalId i : owned_) {
       Vec3& p = x_[at(i)];
-      const Vec3 move = held_at(i, p, onto_geometry(mesh_, faces_, crossings, exact, at(i), p) - p);
+      std::optional<Vec3> to;
+      if (options.tied) to = options.tied(at(i), p);
+      if (!to && options.projection == SurfaceProjection::kInterface)
+        to = onto_geometry(mesh_, faces_, crossings, options.exact, at(i), p);
+      if (!to) continue;
+      const Vec3 move = held_at(i, p, *to - p);
       if (largest(scaled(move, mesh_.per_cell(faces_.nodes[at(i)]))) > kRounding) p += move;
     }
     share_positions(mesh_, exchange_, faces_.nodes, x_);
@@ -163,9 +169,11 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
         break;
       case SurfaceProjection::kInterface:
         smoother.pass(kShrink);
-        smoother.project(crossings, options.exact);
+        smoother.project(crossings, options);
         break;
     }
+    if (options.tied && options.projection != SurfaceProjection::kInterface)
+      smoother.project(crossings, options);
   }
   std::vector<Vec3> placed;
   for (const LocalId n : faces.nodes) placed.push_back(mesh.position[at(n)]);
@@ -173,7 +181,8 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
   for (std::size_t i = 0; i < faces.nodes.size(); ++i) {
     const Vec3 in_cells = mesh.per_cell(faces.nodes[i]);
     Vec3& p = mesh.position[at(faces.nodes[i])];
-    if (options.projection == SurfaceProjection::kOff) {
+    const bool tied = options.tied && options.tied(i, p);
+    if (options.projection == SurfaceProjection::kOff && !tied) {
       const Vec3 way = p - placed[i];
       const double length = norm(scaled(way, in_cells));
       if (length > kFarthestFromContour)
@@ -181,8 +190,10 @@ void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<
     }
     // On the box a node cannot follow a surface that ends short of it: there the side may not close up.
     const bool on_side = mesh.box_sides[at(faces.nodes[i])] != 0;
-    const double farthest =
-        options.projection == SurfaceProjection::kInterface && !on_side ? kFarthestProjected : kFarthest;
+    const double farthest = on_side                                               ? kFarthest
+                            : tied                                                ? kFarthestTied
+                            : options.projection == SurfaceProjection::kInterface ? kFarthestProjected
+                                                                                  : kFarthest;
     const Vec3 move = p - grid_position[i];
     const double most = largest(scaled(move, in_cells));
     if (most > farthest)

@@ -411,13 +411,13 @@ class Pillower {
     find_interface(node);
     if (through_.faces == 0) return rules_.along_edges ? way_along_edges(node) : way_inside(node);
     if (!through_curve()) {
-      result_.on_interface.push_back({copy, false, unit(through_.normal)});
+      result_.on_interface.push_back({copy, label_[at(group_[0] / 8)], false, unit(through_.normal)});
       return way_along_edges(node);
     }
     // Along the curve: the ends of its edges in the group.
     const std::vector<LocalId> ends = curve_ends();
     if (ends.empty()) {
-      result_.on_interface.push_back({copy, true, {}});
+      result_.on_interface.push_back({copy, label_[at(group_[0] / 8)], true, {}});
       return way_along_edges(node);
     }
     Vec3 sum, tangent;
@@ -426,7 +426,8 @@ class Pillower {
       sum += way;
       tangent += dot(way, tangent) < 0 ? -way : way;
     }
-    result_.on_interface.push_back({copy, true, ends.size() <= 2 ? unit(tangent) : Vec3{}});
+    result_.on_interface.push_back(
+        {copy, label_[at(group_[0] / 8)], true, ends.size() <= 2 ? unit(tangent) : Vec3{}});
     return (0.5 / static_cast<double>(ends.size())) * sum;
   }
 

@@ -13,6 +13,8 @@
 
 namespace sculpt {
 
+// Whether interface nodes are to end on the geometry of the input.
+[[nodiscard]] bool goes_to_geometry(const Deck& deck);
 // pure_cells: every cell holds one material only (voxel data). exact: what the input knows of its surfaces.
 [[nodiscard]] InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells,
                                                      const ExactSurface& exact);

@@ -1,5 +1,10 @@
 #include "pipeline/layers.hpp"
 
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <tuple>
+
 #include "pipeline/interface_geometry.hpp"
 #include "sculpt/quality/summary.hpp"
 
@@ -17,14 +22,62 @@ std::int64_t owned_hexes(const Comm& comm, const HexMesh& mesh) {
 
 // One more pillow of a mesh; its neighbours are replaced as well.
 void add_layer(const Comm& comm, LayeredMesh& layered, FaceNeighbours& neighbours,
-               std::span<const std::int32_t> label, const PillowRules& rules) {
+               std::span<const std::int32_t> label, const PillowRules& rules,
+               std::span<const std::int32_t> captured = {}) {
   Pillowed next = pillow(comm, layered.mesh, neighbours, label, {}, rules);
-  layered.geometry = followed(layered.geometry, next);
+  layered.geometry = followed(layered.geometry, next, captured);
   layered.mesh = std::move(next.mesh);
   neighbours = std::move(next.neighbours);
   ++layered.pillows;
   layered.node_factor *= next.node_factor;
 }
+
+// The parts of interface surfaces, by the faces of the cells on both sides, and the sets of buffer hexes that
+// are wrapped for them.
+class CapturedSets {
+ public:
+  // others: surfaces that are on no part of the geometry are wrapped as well.
+  CapturedSets(const HexMesh& cells, const FaceNeighbours& neighbours, const Interfaces& faces, bool others) {
+    std::map<std::tuple<std::array<std::int32_t, 2>, std::int32_t>, std::int32_t> sets;
+    for (std::size_t i = 0; i < faces.quads.size(); ++i) {
+      const InterfaceQuad& q = faces.quads[i];
+      if (faces.part[i] == kNone && !others) continue;
+      const auto [set, added] = sets.try_emplace({Interfaces::materials(cells, q), faces.part[i]},
+                                                 static_cast<std::int32_t>(sets.size()));
+      if (added) surface_.push_back(faces.part[i]);
+      const auto& back = neighbours[at(q.cell[1])];
+      const auto opposite = std::find(back.begin(), back.end(), q.cell[0]) - back.begin();
+      sides_.push_back({cells.hex_id[at(q.cell[0])], q.face, set->second});
+      sides_.push_back({cells.hex_id[at(q.cell[1])], static_cast<int>(opposite), set->second});
+    }
+    std::sort(sides_.begin(), sides_.end());
+  }
+
+  // Of the volume pillow of the cells: the set of every hex, -1 for hexes away from interfaces.
+  [[nodiscard]] std::vector<std::int32_t> labels(const HexMesh& mesh) const {
+    std::vector<std::int32_t> label(mesh.hexes.size(), -1);
+    for (std::size_t h = 0; h < label.size(); ++h) {
+      const auto face = static_cast<int>(mesh.hex_id[h] % kHexFactor) - 1;
+      if (face < 0) continue;
+      const Side side{mesh.hex_id[h] / kHexFactor, face, 0};
+      const auto found = std::lower_bound(sides_.begin(), sides_.end(), side);
+      if (found != sides_.end() && found->cell == side.cell && found->face == face) label[h] = found->set;
+    }
+    return label;
+  }
+  // Per set: its surface of the geometry, or kNone.
+  [[nodiscard]] std::span<const std::int32_t> surface() const { return surface_; }
+
+ private:
+  struct Side {
+    GlobalId cell;
+    int face;
+    std::int32_t set;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides_;  // ascending
+  std::vector<std::int32_t> surface_;
+};
 
 // Layers of equal thickness, made by cutting the cells at the box from the inside outwards.
 void add_boundary_layers(const Comm& comm, LayeredMesh& layered, FaceNeighbours& neighbours, int layers,
@@ -47,6 +100,7 @@ LayerPlan layer_plan(const Deck& deck) {
       deck.pillow >= kPillowCurvesNoSmoothing && deck.pillow < kPillowCurvesSmoothed;
   p.surfaces =
       deck.pillow_surfaces || deck.pillow == kPillowSurfaces || deck.pillow == kPillowSurfacesNoSmoothing;
+  p.captured = deck.capture == kCaptureCurves;
   p.curves = deck.pillow_curves || curves_by_number;
   p.curve_layers = deck.pillow >= kPillowCurvesNoSmoothing ? deck.pillow % 10 : deck.pillow_curve_layers;
   p.curve_threshold = deck.pillow_curve_thresh;
@@ -64,7 +118,9 @@ LayeredMesh add_layers(const Comm& comm, HexMesh cells, FaceNeighbours neighbour
   for (std::size_t c = 0; c < label.size(); ++c)
     if (drop[c]) label[c] = -1;
   const bool boundaries = plan.boundaries && plan.refined;
-  const bool more = plan.surfaces || boundaries || plan.boundary_layers > 0;
+  const bool more = plan.surfaces || plan.captured || boundaries || plan.boundary_layers > 0;
+  std::optional<CapturedSets> captured;
+  if (plan.captured) captured.emplace(cells, neighbours, faces, plan.surfaces);
   Pillowed first =
       pillow(comm, cells, neighbours, label, drop, {.offset = kFirstOffset, .with_neighbours = more});
   cells = {};
@@ -72,11 +128,13 @@ LayeredMesh add_layers(const Comm& comm, HexMesh cells, FaceNeighbours neighbour
   LayeredMesh layered{{}, interface_geometry(first, faces, weights), 1, first.node_factor};
   layered.mesh = std::move(first.mesh);
   first = {};
-  if (plan.surfaces)
-    add_layer(comm, layered, neighbours, surface_labels(layered.mesh, neighbours),
+  if (plan.surfaces || captured)
+    add_layer(comm, layered, neighbours,
+              captured ? captured->labels(layered.mesh) : surface_labels(layered.mesh, neighbours),
               {.offset = kSecondOffset,
                .along_edges = true,
-               .with_neighbours = boundaries || plan.boundary_layers > 0});
+               .with_neighbours = boundaries || plan.boundary_layers > 0},
+              captured ? captured->surface() : std::span<const std::int32_t>{});
   if (plan.boundaries) {
     const std::uint8_t sides = boundaries ? sides_with_flat_hexes(comm, layered.mesh) : std::uint8_t{0};
     if (sides != 0)
@@ -109,7 +167,7 @@ void add_curve_layers(const Comm& comm, LayeredMesh& layered, const LayerPlan& p
   Pillowed next = pillow(comm, mesh, face_neighbours(mesh), set.label, {},
                          {.offset = kSecondOffset, .along_edges = true});
   LayeredMesh wrapped{
-      {}, followed(layered.geometry, next), layered.pillows + 1, layered.node_factor * next.node_factor};
+      {}, followed(layered.geometry, next, {}), layered.pillows + 1, layered.node_factor * next.node_factor};
   wrapped.mesh = std::move(next.mesh);
   share_positions(wrapped.mesh);
   log.line("pillow_curves: {} hexes at curves are below {:f}; a layer of {} hexes is put around {}", set.poor,

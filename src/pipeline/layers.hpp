@@ -17,6 +17,7 @@ namespace sculpt {
 // What the options pillow and pillow_... ask for together.
 struct LayerPlan {
   bool surfaces = false;
+  bool captured = false;  // the surfaces of a captured geometry, each by itself
   bool curves = false;
   int curve_layers = 3;
   double curve_threshold = 0.3;
@@ -25,10 +26,12 @@ struct LayerPlan {
   int boundary_layers = 0;  // on all sides of the box
   bool smooth_after = true;
 
-  [[nodiscard]] bool any() const { return surfaces || curves || boundaries || boundary_layers > 0; }
+  [[nodiscard]] bool any() const {
+    return surfaces || captured || curves || boundaries || boundary_layers > 0;
+  }
   // Layers of ghost cells that the overlay mesh needs: one for each pillow, one for the smoothing.
   [[nodiscard]] int ghost_layers() const {
-    return 2 + surfaces + curves + boundary_layers + (boundaries && refined);
+    return 2 + (surfaces || captured) + curves + boundary_layers + (boundaries && refined);
   }
 };
 [[nodiscard]] LayerPlan layer_plan(const Deck& deck);

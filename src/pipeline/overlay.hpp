@@ -2,12 +2,14 @@
 // The overlay mesh that a run starts from: the grid of the input, refined, coarsened or as it is, with the
 // volume fractions of its cells.
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sculpt/base/log.hpp"
 #include "sculpt/deck/deck.hpp"
+#include "sculpt/geom/features.hpp"
 #include "sculpt/input/material_source.hpp"
 #include "sculpt/mesh/adjacency.hpp"
 #include "sculpt/mesh/hex_mesh.hpp"
@@ -39,6 +41,7 @@ struct Overlay {
   Index3 numbered{0, 0, 0};  // of a lattice: those of the grid that gives the cells their ids
   bool pure = true;          // on all ranks every cell of the input holds one material only
   ExactSurface exact;        // what the input knows of its surfaces
+  std::shared_ptr<const GeometryFeatures> features;  // and of their edges and corners; null: nothing
   // Of an input mesh.
   std::optional<HexMesh> kept;  // hexes that stay as they are; cells has the others
   std::map<std::int64_t, std::string> block_names;

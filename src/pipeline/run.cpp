@@ -22,6 +22,7 @@
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/exterior.hpp"
 #include "sculpt/brep/interfaces.hpp"
+#include "sculpt/contour/capture.hpp"
 #include "sculpt/contour/contour.hpp"
 #include "sculpt/contour/interface_smoothing.hpp"
 #include "sculpt/exo/rank_mesh.hpp"
@@ -71,19 +72,36 @@ void refuse_empty_mesh(const Comm& comm, const Overlay& overlay, const std::vect
 
 // Whether smoothing the volume needs to know where the interface is, and not only where its nodes are.
 bool holds_interfaces(const Deck& deck) {
-  return deck.smooth == kSmoothToGeometry || deck.smooth == kSmoothGeoSmooth ||
+  return goes_to_geometry(deck) || deck.smooth == kSmoothGeoSmooth ||
          (deck.smooth != kSmoothOff && deck.opt_method == kOptJacobi);
 }
+
+constexpr int kLeastCapturePasses = 5;  // that spread nodes along curves of the geometry
 
 // Interface nodes placed and smoothed on the overlay grid; what the smoother must know of them.
 struct Contour {
   Interfaces faces;
   std::vector<Weight> weights;
   std::vector<Vec3> placed;  // per interface node: where it was before the smoothing
+  Capture capture;
   // Kept where holds_interfaces().
   std::vector<Crossing> crossings;
   std::vector<Vec3> grid_position;
 };
+
+// Ties the interface to the curves and corners of the geometry and takes it there.
+void capture(const Deck& deck, Overlay& overlay, Contour& c, const Log& log) {
+  HexMesh& cells = overlay.cells;
+  c.capture =
+      capture_geometry(cells, c.faces, overlay.features,
+                       deck.given("capture_side") ? static_cast<std::int32_t>(deck.capture_side) - 1 : kNone);
+  log.line("  capture: {} nodes are tied to curves of the geometry, {} to corners", c.capture.curve_nodes,
+           c.capture.corner_nodes);
+  InterfaceSmoothing passes = interface_smoothing(deck, overlay.pure, overlay.exact);
+  passes.pairs = std::max(passes.pairs, kLeastCapturePasses);
+  passes.tied = [&](std::size_t i, const Vec3& p) { return c.capture.onto(i, p); };
+  smooth_interface(cells, c.faces, c.crossings, c.grid_position, passes);
+}
 
 Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stages) {
   HexMesh& cells = overlay.cells;
@@ -100,6 +118,7 @@ Contour contour(const Deck& deck, Overlay& overlay, const Log& log, Stages& stag
   if (deck.smooth != kSmoothOff)
     smooth_interface(cells, c.faces, c.crossings, c.grid_position,
                      interface_smoothing(deck, overlay.pure, overlay.exact));
+  if (deck.capture == kCaptureCurves) capture(deck, overlay, c, log);
   c.weights = deviation_weights(cells, c.faces);
   if (!holds_interfaces(deck)) {
     c.crossings = {};
@@ -140,7 +159,7 @@ Contour stair_interfaces(Overlay& overlay, const std::vector<std::uint8_t>& drop
   log.line("(5/9) computing material interfaces...");
   for (std::size_t c = 0; c < drop.size(); ++c)
     if (drop[c]) overlay.cells.material[c] = -1;
-  return {trace_interfaces(overlay.cells, overlay.neighbours), {}, {}, {}, {}};
+  return {trace_interfaces(overlay.cells, overlay.neighbours), {}, {}, {}, {}, {}};
 }
 
 // The faces of the side sets of the input mesh whose hexes are meshed.
@@ -264,10 +283,10 @@ Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contou
   LayeredMesh layered = add_layers(comm, std::move(overlay.cells), std::move(overlay.neighbours), drop,
                                    shape.faces, shape.weights, plan, log);
   if (held)
-    hold(layered.geometry,
-         {std::move(contoured), std::move(shape.faces), std::move(shape.crossings),
-          std::move(shape.grid_position), deck.smooth == kSmoothToGeometry ? overlay.exact : ExactSurface{},
-          deck.opt_method == kOptJacobi && deck.smooth != kSmoothToGeometry && overlay.pure});
+    hold(layered.geometry, {std::move(contoured), std::move(shape.faces), std::move(shape.crossings),
+                            std::move(shape.grid_position),
+                            goes_to_geometry(deck) ? overlay.exact : ExactSurface{}, std::move(shape.capture),
+                            deck.opt_method == kOptJacobi && !goes_to_geometry(deck) && overlay.pure});
   stages.end("generate hexes");
   log.line("(9/9) begin smoothing...");
   const auto smooth = [&](LayeredMesh& l) {

@@ -23,7 +23,7 @@ bool lets_surfaces_go(const Deck& deck) {
 }
 
 SurfaceProjection surface_projection(const Deck& deck, bool pure_cells) {
-  if (deck.smooth == kSmoothToGeometry) return SurfaceProjection::kInterface;
+  if (goes_to_geometry(deck)) return SurfaceProjection::kInterface;
   switch (deck.surface_projection) {
     case kProjectionNone:
       return SurfaceProjection::kOff;
@@ -38,12 +38,16 @@ SurfaceProjection surface_projection(const Deck& deck, bool pure_cells) {
 
 }  // namespace
 
+bool goes_to_geometry(const Deck& deck) {
+  return deck.smooth == kSmoothToGeometry || deck.capture != kCaptureOff;
+}
+
 InterfaceSmoothing interface_smoothing(const Deck& deck, bool pure_cells, const ExactSurface& exact) {
   InterfaceSmoothing s;
   s.curve = static_cast<CurveRule>(deck.csmooth);
   s.pairs = deck.laplacian_iters;
   s.projection = surface_projection(deck, pure_cells);
-  if (deck.smooth == kSmoothToGeometry) s.exact = exact;
+  if (goes_to_geometry(deck)) s.exact = exact;
   if (lets_surfaces_go(deck)) {  // smoother, at the price of some volume
     s.grow = kFreeGrowth;
     if (s.pairs > 0) s.pairs = std::max(2 * s.pairs, kLeastFreePairs);
@@ -62,7 +66,7 @@ SmoothOptions smooth_options(const Deck& deck, bool pure_cells, const Vec3& cell
   s.release_curves_below = deck.curve_opt_thresh;
   s.guarantee_rounds = deck.max_gq_iters;
   s.guarantee = deck.gq_threshold;
-  if (deck.smooth == kSmoothToGeometry) {
+  if (goes_to_geometry(deck)) {
     s.hold_on_geometry = true;
     s.fidelity = kHeldSurfaces;
   }

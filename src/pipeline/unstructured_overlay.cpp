@@ -110,6 +110,8 @@ class InputMeshOverlay {
     };
     if (deck_.adapt_type != kAdaptOff)
       refuse("adapt_type", "refinement and coarsening pair the layers of a Cartesian grid");
+    if (deck_.capture == kCaptureCurves)
+      refuse("capture", "edges and corners are captured on a Cartesian grid only");
     if (deck_.periodic) refuse("periodic", "periodic meshes need a Cartesian grid");
     if (deck_.micro_expand > 0) refuse("micro_expand", "layers can be added to a Cartesian grid only");
     if (deck_.gen_sidesets == kSidesetsRve)

@@ -4,9 +4,10 @@
 // number of ranks.
 //
 //   volume   cells of one material that are connected through faces; the void is a material like others
-//   surface  interface quads that are connected through edges where exactly two quads meet; so it lies
-//            between one pair of volumes, and two volumes may meet in several surfaces
-//   curve    edges where other than two interface quads meet, connected through nodes of class kCurve;
+//   surface  interface quads that are connected through edges where exactly two quads of one part meet; so
+//            it lies between one pair of volumes, and two volumes may meet in several surfaces
+//   curve    edges where other than two interface quads meet, or two of different parts, connected through
+//   nodes of class kCurve;
 //            a closed curve may have no vertex, a closed surface no curve
 //   vertex   a node of class kVertex
 #include <cstdint>

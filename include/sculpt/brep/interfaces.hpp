@@ -41,12 +41,13 @@ class Table {
 
 struct Interfaces {
   std::vector<InterfaceQuad> quads;  // ascending in (cell[0], face)
+  std::vector<std::int32_t> part;    // per quad: the part of its surface that it is on; empty: all are on one
   std::vector<LocalId> nodes;        // mesh nodes on interfaces, ascending; "interface node" = index here
   std::vector<LocalId> index_of;     // per mesh node: its interface node or kNone
   std::vector<NodeClass> kind;       // per interface node
   Table node_quads;                  // per interface node: 4 * quad + corner, ascending
   Table neighbours;        // per interface node: interface nodes joined to it by a quad edge, ascending
-  Table curve_neighbours;  // those of them joined by an edge that bounds or joins surfaces
+  Table curve_neighbours;  // those of them joined by an edge that bounds or joins surfaces or their parts
 
   // The two materials a quad separates, smaller dense index first.
   [[nodiscard]] static std::array<std::int32_t, 2> materials(const HexMesh& mesh, const InterfaceQuad& q) {
@@ -57,5 +58,9 @@ struct Interfaces {
 };
 
 [[nodiscard]] Interfaces trace_interfaces(const HexMesh& mesh, const FaceNeighbours& neighbours);
+
+// Local. Divides the surfaces: edges between quads of different parts become curves. part: per quad, right
+// for all quads that have a cell in the first ghost layer or better.
+void divide_surfaces(const HexMesh& mesh, Interfaces& faces, std::vector<std::int32_t> part);
 
 }  // namespace sculpt

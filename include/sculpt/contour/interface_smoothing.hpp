@@ -4,6 +4,8 @@
 // volume). Data with true volume fractions has no such noise: there the passes only spread the nodes on the
 // interface, with a projection back to it. The report's projection to a quadric is a third way. Curves move
 // along their own edges by the chosen rule.
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "sculpt/brep/interfaces.hpp"
@@ -36,12 +38,14 @@ struct InterfaceSmoothing {
   double grow = -0.53;  // share of the way in the growing pass; Taubin's keeps volumes best
   SurfaceProjection projection = SurfaceProjection::kOff;
   ExactSurface exact{};  // used by kInterface, where there is one
+  // The point that an interface node at p is tied to, whatever the projection; nothing: it is not.
+  std::function<std::optional<Vec3>(std::size_t interface_node, const Vec3& p)> tied{};
   CurveRule curve = CurveRule::kHermite;
 };
 
 // Collective. grid_position: where the interface nodes stood in the overlay grid; no node ends farther than
-// 0.45 of a cell per axis from there (0.75 with projection, but on the box), and without projection none goes
-// farther than 0.55 of a cell. Box sides are kept exactly.
+// 0.45 of a cell per axis from there (0.75 with projection, but on the box; 1 where it is tied), and without
+// projection none goes farther than 0.55 of a cell. Box sides are kept exactly.
 void smooth_interface(HexMesh& mesh, const Interfaces& faces, const std::vector<Crossing>& crossings,
                       const std::vector<Vec3>& grid_position, const InterfaceSmoothing& options);
 

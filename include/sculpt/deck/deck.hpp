@@ -86,6 +86,8 @@ enum Pillow : int {
   kPillowCurvesSmoothed = 210,     // + number of layers
 };
 
+enum CaptureMode : int { kCaptureOff = 0, kCaptureCurves = 5 };  // 1 to 4: surfaces only
+
 enum Defeature : int { kDefeatureOff = 0, kDefeatureFilter = 1, kDefeatureCollapse = 2, kDefeatureAll = 3 };
 
 enum HtetMethod : int { kHtetStructured = 0, kHtetUnstructured = 1 };

@@ -11,6 +11,7 @@
 #include "sculpt/base/log.hpp"
 #include "sculpt/base/types.hpp"
 #include "sculpt/deck/deck.hpp"
+#include "sculpt/geom/features.hpp"
 #include "sculpt/geom/hex.hpp"
 #include "sculpt/geom/shape.hpp"
 #include "sculpt/grid/grid.hpp"
@@ -119,6 +120,8 @@ class MaterialSource {
                                                             std::int32_t outside) const;
   // What the input knows exactly of its surfaces. Stays usable when the source is gone.
   [[nodiscard]] virtual ExactSurface exact_surface() const { return {}; }
+  // The smooth surfaces, curves and corners of faceted input; null where there are no facets.
+  [[nodiscard]] virtual std::shared_ptr<const GeometryFeatures> features() const { return nullptr; }
 };
 
 // The voxels of a grid that the hexes of data need, of all hexes within a box; empty when they lie outside.

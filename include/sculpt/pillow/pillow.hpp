@@ -20,9 +20,10 @@ struct PillowRules {
 
 // A copy that lies on an interface, because the interface runs through its set.
 struct InterfaceCopy {
-  LocalId node;    // of the result
-  bool on_curve;   // where at least three materials meet; what is left out of the mesh counts as one
-  Vec3 direction;  // unit normal of the surface or tangent of the curve; 0 at a vertex
+  LocalId node;        // of the result
+  std::int32_t label;  // of its set
+  bool on_curve;       // where at least three materials meet; what is left out of the mesh counts as one
+  Vec3 direction;      // unit normal of the surface or tangent of the curve; 0 at a vertex
 };
 
 struct Pillowed {

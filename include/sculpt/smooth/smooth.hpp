@@ -23,13 +23,17 @@ struct Geometry {
   std::vector<std::array<double, 6>> weight;
   std::vector<std::uint8_t> on_curve;  // 1 for nodes of curves and vertices
   std::vector<LocalId> origin;  // the interface node of the contour that it is, kNone for a copy of one
+  std::vector<std::int32_t>
+      surface;  // of a copy: the surface of the input geometry that it is tied to, or kNone
   // The point of the geometry that belongs to an interface node of the contour (of an owned node) when it is
   // at p; target: where the contour has it. Box sides are not considered. May be empty where nothing asks for
   // onto(): neither hold_on_geometry, max_deviation nor the published method.
   std::function<Vec3(LocalId origin, const Vec3& target, const Vec3& p)> contour;
+  // The point of a surface of the input geometry that is nearest to p. Needed where copies are tied to some.
+  std::function<Vec3(std::int32_t surface, const Vec3& p)> on_surface;
 
-  // The point that belongs to an entry when its node is at p. A copy is held to the plane or line through its
-  // target that its weight tells.
+  // The point that belongs to an entry when its node is at p. A copy that is not tied to a surface is held to
+  // the plane or line through its target that its weight tells.
   [[nodiscard]] Vec3 onto(LocalId entry, const Vec3& p) const;
 };
 

@@ -298,7 +298,11 @@ constexpr OptionSpec kImproveOptions[] = {
      .group = kM,
      .slot = &Deck::capture,
      .help = "Project to facet geometry",
-     .about = "0: off. The mesh is fitted to the facets of the STL input.",
+     .about = "Nodes of interfaces are put on the facets of the STL input, as with smooth = to_geometry. 0: off. "
+              "1 to 4: surfaces only. 5: edges and corners as well: every smooth surface of the geometry gets a "
+              "layer of hexes of its own, edges of the mesh follow the sharp edges of the geometry, nodes sit on "
+              "its corners.",
+     .supported = true,
      .lo = 0,
      .hi = 5},
     {.name = "capture_angle",
@@ -306,7 +310,8 @@ constexpr OptionSpec kImproveOptions[] = {
      .group = kM,
      .slot = &Deck::capture_angle,
      .help = "Angle that splits facet surfaces",
-     .about = "Degrees; used with capture.",
+     .about = "Degrees. Facets whose normals differ by more are on different surfaces.",
+     .supported = true,
      .lo = 0,
      .hi = 180},
     {.name = "capture_side",
@@ -314,7 +319,9 @@ constexpr OptionSpec kImproveOptions[] = {
      .group = kM,
      .slot = &Deck::capture_side,
      .help = "Facet surface to project to",
-     .about = "Used with capture.",
+     .about = "Used with capture = 5: the one surface that is captured, numbered from 1 in the order in which the "
+              "surfaces are met in the file; the log lists them.",
+     .supported = true,
      .lo = 0,
      .hi = kMaxId,
      .unset = "all"},

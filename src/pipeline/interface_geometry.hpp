@@ -29,8 +29,8 @@ struct HeldInterface {
   std::vector<Crossing> crossings;
   std::vector<Vec3> grid_position;  // of interface nodes in the overlay grid
   ExactSurface exact;
-  Capture capture;
   bool quadrics = false;
+  Capture capture{};
 };
 
 // Local. Fills geometry.contour.

@@ -283,10 +283,11 @@ Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contou
   LayeredMesh layered = add_layers(comm, std::move(overlay.cells), std::move(overlay.neighbours), drop,
                                    shape.faces, shape.weights, plan, log);
   if (held)
-    hold(layered.geometry, {std::move(contoured), std::move(shape.faces), std::move(shape.crossings),
-                            std::move(shape.grid_position),
-                            goes_to_geometry(deck) ? overlay.exact : ExactSurface{}, std::move(shape.capture),
-                            deck.opt_method == kOptJacobi && !goes_to_geometry(deck) && overlay.pure});
+    hold(
+        layered.geometry,
+        {std::move(contoured), std::move(shape.faces), std::move(shape.crossings),
+         std::move(shape.grid_position), goes_to_geometry(deck) ? overlay.exact : ExactSurface{},
+         deck.opt_method == kOptJacobi && !goes_to_geometry(deck) && overlay.pure, std::move(shape.capture)});
   stages.end("generate hexes");
   log.line("(9/9) begin smoothing...");
   const auto smooth = [&](LayeredMesh& l) {

@@ -15,7 +15,9 @@ constexpr int kLeastFreePairs = 20;
 constexpr double kFreeGrowth = -0.45;
 
 constexpr double kTrueSurfaces = 2.5;  // the interface is known better than from voxels, so it is held better
-constexpr double kHeldSurfaces = 10;   // interface nodes that are to end on the geometry
+constexpr double kLeastOfCaptured = 0.15;      // scaled Jacobian: above it sharp edges matter more
+constexpr double kLeastEdgeOfCaptured = 0.04;  // in cells
+constexpr double kHeldSurfaces = 10;           // interface nodes that are to end on the geometry
 
 // Whether surfaces are smoothed without regard to where the interface was reconstructed.
 bool lets_surfaces_go(const Deck& deck) {
@@ -69,6 +71,10 @@ SmoothOptions smooth_options(const Deck& deck, bool pure_cells, const Vec3& cell
   if (goes_to_geometry(deck)) {
     s.hold_on_geometry = true;
     s.fidelity = kHeldSurfaces;
+  }
+  if (deck.capture == kCaptureCurves) {
+    s.held_above = kLeastOfCaptured;
+    s.held_edge = kLeastEdgeOfCaptured;
   }
   if (deck.smooth == kSmoothGeoSmooth) {
     s.deviation_by_level = !(deck.geo_smooth_max_deviation > 0);

@@ -64,8 +64,7 @@ class Phases {
       optimise_as_published(set_, geometry_, options_, log_);
     else
       optimise();
-    if (options_.hold_on_geometry)
-      without_folding([&] { fit([&](LocalId n) { return kFitted * size_at(n); }); });
+    if (options_.hold_on_geometry) hold_on_geometry();
     if (limited()) without_folding([&] { fit([&](LocalId n) { return step_.limit(n, farthest_); }); });
     if (options_.guarantee_rounds > 0) guarantee();
     if (options_.hold_on_geometry || limited()) report_deviation();
@@ -333,11 +332,18 @@ class Phases {
     return set_.comm().max(farthest);
   }
 
+  void hold_on_geometry() {
+    const double floor = floor_;
+    floor_ = std::min(floor_, options_.held_above);
+    without_folding([&] { fit([&](LocalId n) { return kFitted * size_at(n); }); });
+    floor_ = floor;
+  }
   // Interface nodes farther than their tolerance from the geometry go back to it as far as the floor allows;
   // between the rounds the nodes around them make room.
   void fit(const std::function<double(LocalId)>& tolerance) {
     step_.set_scale(isotropic_);
     StepRules rules = raising_rules(options_.fidelity);
+    rules.least_edge = options_.held_edge;
     StepRules room = rules;
     for (int i = 0; i < kFitRounds; ++i) {
       const std::vector<std::uint8_t> off = off_the_geometry(tolerance);

@@ -121,7 +121,7 @@ StagesResult run_stages(const Comm& comm, Overlay o, bool pure, const StageOptio
       return m != n && o.is_block[at(m)] != 0 && o.is_block[at(n)] != 0;
     });
 
-  const Interfaces faces = trace_interfaces(cells, neighbours);
+  Interfaces faces = trace_interfaces(cells, neighbours);
   for (const InterfaceQuad& q : faces.quads) result.quads += cells.layer[at(q.cell[0])] == 0;
   const std::vector<Crossing> crossings = edge_crossings(cells, faces, o.fractions, around);
   std::vector<Vec3> grid_position;
@@ -133,6 +133,13 @@ StagesResult run_stages(const Comm& comm, Overlay o, bool pure, const StageOptio
     smoothing.projection = SurfaceProjection::kInterface;
   smooth_interface(cells, faces, crossings, grid_position, smoothing);
   note("smooth interfaces", cells);
+  Capture capture;
+  if (options.features) {
+    capture = capture_geometry(cells, faces, options.features, kNone);
+    smoothing.tied = [&](std::size_t i, const Vec3& p) { return capture.onto(i, p); };
+    smooth_interface(cells, faces, crossings, grid_position, smoothing);
+    note("capture", cells);
+  }
 
   std::vector<std::uint8_t> drop(cells.hexes.size());
   for (std::size_t c = 0; c < drop.size(); ++c) {
@@ -148,7 +155,8 @@ StagesResult run_stages(const Comm& comm, Overlay o, bool pure, const StageOptio
   volume_smoothing.fidelity = pure ? 1 : 2.5;
   const bool published = volume_smoothing.method == OptimisationMethod::kPublished;
   if (published || volume_smoothing.hold_on_geometry || std::isfinite(volume_smoothing.max_deviation))
-    hold(layered.geometry, {cells, faces, crossings, grid_position, smoothing.exact, published && pure});
+    hold(layered.geometry,
+         {cells, faces, crossings, grid_position, smoothing.exact, published && pure, std::move(capture)});
   const auto smooth = [&](LayeredMesh& l) { smooth_mesh(l.mesh, l.geometry, volume_smoothing, options.log); };
   smooth(layered);
   note("smooth", layered.mesh);

@@ -1,6 +1,7 @@
 #pragma once
 // The stages from the overlay grid to the smooth mesh, as the program runs them, on made-up input and in
 // memory.
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "sculpt/brep/interfaces.hpp"
 #include "sculpt/contour/interface_smoothing.hpp"
 #include "sculpt/filter/filter.hpp"
+#include "sculpt/geom/features.hpp"
 #include "sculpt/mesh/hex_mesh.hpp"
 #include "sculpt/quality/summary.hpp"
 #include "sculpt/smooth/smooth.hpp"
@@ -46,7 +48,8 @@ struct StageOptions {
   FilterOptions filter;
   InterfaceSmoothing interfaces;  // whether to project is decided by the input, as the program does
   SmoothOptions smoothing;
-  Log log;  // of the volume smoothing
+  std::shared_ptr<const GeometryFeatures> features{};  // what is captured
+  Log log;                                             // of the volume smoothing
 };
 
 struct StageChecksum {

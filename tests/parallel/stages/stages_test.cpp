@@ -6,6 +6,7 @@
 
 #include "sculpt/filter/thicken.hpp"
 #include "sculpt/mesh/adjacency.hpp"
+#include "support/features.hpp"
 #include "support/mesh_checks.hpp"
 #include "support/stages.hpp"
 
@@ -77,6 +78,18 @@ TEST(SameMesh, WithSurfacePillows) {
   StageOptions options;
   options.layers.surfaces = true;
   expect_same_alone_and_together(grains({10, 9, 8}, 12, 5, 7), options);
+}
+
+TEST(SameMesh, OfACapturedBox) {
+  const auto box = turned_box({6.1, 5.9, 6.05}, {3.6, 3.1, 3.3});
+  StageOptions options;
+  options.features = box;
+  options.layers.captured = options.smoothing.hold_on_geometry = true;
+  options.smoothing.held_above = 0.15;
+  options.smoothing.held_edge = 0.04;
+  expect_same_alone_and_together(box_case({12, 12, 12}, *box), options);
+  options.void_material = 0;
+  expect_same_alone_and_together(box_case({12, 12, 12}, *box), options);
 }
 
 TEST(SameMesh, WithLayersAlongTheBox) {

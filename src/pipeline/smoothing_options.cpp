@@ -15,9 +15,7 @@ constexpr int kLeastFreePairs = 20;
 constexpr double kFreeGrowth = -0.45;
 
 constexpr double kTrueSurfaces = 2.5;  // the interface is known better than from voxels, so it is held better
-constexpr double kLeastOfCaptured = 0.15;      // scaled Jacobian: above it sharp edges matter more
-constexpr double kLeastEdgeOfCaptured = 0.04;  // in cells
-constexpr double kHeldSurfaces = 10;           // interface nodes that are to end on the geometry
+constexpr double kHeldSurfaces = 10;   // interface nodes that are to end on the geometry
 
 // Whether surfaces are smoothed without regard to where the interface was reconstructed.
 bool lets_surfaces_go(const Deck& deck) {
@@ -72,10 +70,7 @@ SmoothOptions smooth_options(const Deck& deck, bool pure_cells, const Vec3& cell
     s.hold_on_geometry = true;
     s.fidelity = kHeldSurfaces;
   }
-  if (deck.capture == kCaptureCurves) {
-    s.held_above = kLeastOfCaptured;
-    s.held_edge = kLeastEdgeOfCaptured;
-  }
+  s.captured = deck.capture == kCaptureCurves;
   if (deck.smooth == kSmoothGeoSmooth) {
     s.deviation_by_level = !(deck.geo_smooth_max_deviation > 0);
     s.max_deviation = s.deviation_by_level ? 0.5 * std::min({cell_size.x, cell_size.y, cell_size.z})

@@ -23,8 +23,10 @@ constexpr double kMargin = 0.05;   // hexes this little above the target are rai
 constexpr double kGiveWay = 0.3;   // price of deviation from one round of the guarantee to the next
 constexpr double kNoPrice = 1e-5;  // of deviation: lowering it further changes nothing
 constexpr double kLowPrice = 0.02;  // interface nodes may climb whatever the deviation
-constexpr int kFitRounds = 12;
-constexpr double kFitted = 0.002;  // distance from the geometry that is not worth a move, in cells
+constexpr int kFitRounds = 12, kCaptureRounds = 40, kLastFits = 6;
+constexpr double kCapturedAbove = 0.15,
+                 kCapturedEdge = 0.04;  // what captured nodes leave: quality, edges in cells
+constexpr double kFitted = 0.002;       // distance from the geometry that is not worth a move, in cells
 
 // What raising works towards.
 struct Aim {
@@ -334,26 +336,36 @@ class Phases {
 
   void hold_on_geometry() {
     const double floor = floor_;
-    floor_ = std::min(floor_, options_.held_above);
+    if (options_.captured) floor_ = std::min(floor_, kCapturedAbove);
     without_folding([&] { fit([&](LocalId n) { return kFitted * size_at(n); }); });
     floor_ = floor;
   }
   // Interface nodes farther than their tolerance from the geometry go back to it as far as the floor allows;
-  // between the rounds the nodes around them make room.
+  // between the rounds the nodes around them make room: those inside, and with `captured` those on the
+  // geometry, which slide.
   void fit(const std::function<double(LocalId)>& tolerance) {
     step_.set_scale(isotropic_);
     StepRules rules = raising_rules(options_.fidelity);
-    rules.least_edge = options_.held_edge;
+    if (options_.captured) rules.least_edge = kCapturedEdge;
     StepRules room = rules;
-    for (int i = 0; i < kFitRounds; ++i) {
+    for (int i = 0; i < (options_.captured ? kCaptureRounds : kFitRounds); ++i) {
       const std::vector<std::uint8_t> off = off_the_geometry(tolerance);
-      if (set_.choose_if([&](LocalId n) { return off[at(n)] != 0; }) == 0) break;
+      if (set_.choose_if([&](LocalId n) { return off[at(n)] != 0; }) == 0) return;
       const std::int64_t moves = moves_of([&](LocalId n) { return step_.fit(n, rules); }, 0);
       room.target_lengths = i % 2 == 0 ? Star::Target::kUnit : Star::Target::kPresent;
       room.power = i % 2 == 0 ? 1 : 2;
-      set_.choose_if([&](LocalId n) { return !on_interface(n) && shares_hex(n, off); });
+      if (options_.captured) retarget();
+      set_.choose_if([&](LocalId n) {
+        return (options_.captured ? off[at(n)] == 0 : !on_interface(n)) && shares_hex(n, off);
+      });
       const std::int64_t around = moves_of([&](LocalId n) { return step_.newton(n, room); }, far_);
       if (moves == 0 && around == 0) break;
+    }
+    // Nodes on the geometry that made room may be a little off.
+    for (int i = 0; options_.captured && i < kLastFits; ++i) {
+      const std::vector<std::uint8_t> off = off_the_geometry(tolerance);
+      if (set_.choose_if([&](LocalId n) { return off[at(n)] != 0; }) == 0) return;
+      if (moves_of([&](LocalId n) { return step_.fit(n, rules); }, 0) == 0) break;
     }
   }
   // Marks the interface nodes, ghosts included, that are farther than this from the geometry.

@@ -84,9 +84,7 @@ TEST(SameMesh, OfACapturedBox) {
   const auto box = turned_box({6.1, 5.9, 6.05}, {3.6, 3.1, 3.3});
   StageOptions options;
   options.features = box;
-  options.layers.captured = options.smoothing.hold_on_geometry = true;
-  options.smoothing.held_above = 0.15;
-  options.smoothing.held_edge = 0.04;
+  options.layers.captured = options.smoothing.hold_on_geometry = options.smoothing.captured = true;
   expect_same_alone_and_together(box_case({12, 12, 12}, *box), options);
   options.void_material = 0;
   expect_same_alone_and_together(box_case({12, 12, 12}, *box), options);

@@ -79,7 +79,7 @@ double quadratic(const std::array<double, 6>& w, const Vec3& d) {
 Vec3 Geometry::onto(LocalId entry, const Vec3& p) const {
   const Vec3& to = target[at(entry)];
   if (origin[at(entry)] != kNone) return contour(origin[at(entry)], to, p);
-  if (surface[at(entry)] != kNone) return on_surface(surface[at(entry)], p);
+  if (!surface.empty() && surface[at(entry)] != kNone) return on_surface(surface[at(entry)], p);
   const auto& w = weight[at(entry)];
   const Vec3 d = p - to;
   const Vec3 held = {(w[0] - kSliding) * d.x + w[1] * d.y + w[2] * d.z,

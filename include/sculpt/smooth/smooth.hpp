@@ -24,7 +24,7 @@ struct Geometry {
   std::vector<std::uint8_t> on_curve;  // 1 for nodes of curves and vertices
   std::vector<LocalId> origin;  // the interface node of the contour that it is, kNone for a copy of one
   std::vector<std::int32_t>
-      surface;  // of a copy: the surface of the input geometry that it is tied to, or kNone
+      surface;  // of a copy: the surface of the input geometry that it is tied to, or kNone; empty: none is
   // The point of the geometry that belongs to an interface node of the contour (of an owned node) when it is
   // at p; target: where the contour has it. Box sides are not considered. May be empty where nothing asks for
   // onto(): neither hold_on_geometry, max_deviation nor the published method.

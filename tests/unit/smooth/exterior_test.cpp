@@ -11,7 +11,9 @@ namespace sculpt::test {
 namespace {
 
 Geometry no_interface(const HexMesh& mesh) {
-  return {std::vector<LocalId>(mesh.position.size(), kNone), {}, {}, {}, {}, {}};
+  Geometry none;
+  none.index.assign(mesh.position.size(), kNone);
+  return none;
 }
 
 // Nodes are put off their places, but not off what holds them.

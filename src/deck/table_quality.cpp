@@ -6,6 +6,11 @@ namespace sculpt {
 namespace {
 
 // "8" and "9" are values of an older numbering that Sculpt's help on input_spn still mentions.
+constexpr EnumValue kVolumeCorrections[] = {{"automatic", kVolumesAutomatic},
+                                            {"off", kVolumesOff},
+                                            {"on", kVolumesOn},
+                                            {"false", kVolumesOff},
+                                            {"true", kVolumesOn}};
 constexpr EnumValue kSmooths[] = {{"off", kSmoothOff},
                                   {"none", kSmoothOff},
                                   {"default", kSmoothOn},
@@ -293,15 +298,30 @@ constexpr OptionSpec kImproveOptions[] = {
               "pillow_curves the "
               "mesh is smoothed before the curves are looked at, not after.",
      .supported = true},
+    {.name = "volume_correction",
+     .flag = "",
+     .group = kM,
+     .slot = &Deck::volume_correction,
+     .help = "Whether materials get the volumes of the input",
+     .about =
+         "A last small move of all interfaces gives every material the volume that it has in the input; one "
+         "that "
+         "is off by more than 2 % has lost features smaller than a cell and is left alone. automatic: where "
+         "the "
+         "input has true volume fractions (shapes, facets, volume fractions), interfaces are not held on the "
+         "geometry and no material is thickened. An option of this program.",
+     .supported = true,
+     .values = kVolumeCorrections},
     {.name = "capture",
      .flag = "-c",
      .group = kM,
      .slot = &Deck::capture,
      .help = "Project to facet geometry",
-     .about = "Nodes of interfaces are put on the facets of the STL input, as with smooth = to_geometry. 0: off. "
-              "1 to 4: surfaces only. 5: edges and corners as well: every smooth surface of the geometry gets a "
-              "layer of hexes of its own, edges of the mesh follow the sharp edges of the geometry, nodes sit on "
-              "its corners.",
+     .about =
+         "Nodes of interfaces are put on the facets of the STL input, as with smooth = to_geometry. 0: off. "
+         "1 to 4: surfaces only. 5: edges and corners as well: every smooth surface of the geometry gets a "
+         "layer of hexes of its own, edges of the mesh follow the sharp edges of the geometry, nodes sit on "
+         "its corners.",
      .supported = true,
      .lo = 0,
      .hi = 5},
@@ -319,8 +339,9 @@ constexpr OptionSpec kImproveOptions[] = {
      .group = kM,
      .slot = &Deck::capture_side,
      .help = "Facet surface to project to",
-     .about = "Used with capture = 5: the one surface that is captured, numbered from 1 in the order in which the "
-              "surfaces are met in the file; the log lists them.",
+     .about =
+         "Used with capture = 5: the one surface that is captured, numbered from 1 in the order in which the "
+         "surfaces are met in the file; the log lists them.",
      .supported = true,
      .lo = 0,
      .hi = kMaxId,

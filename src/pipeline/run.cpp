@@ -43,6 +43,11 @@
 namespace sculpt {
 namespace {
 
+// The material that is left out, or kNone.
+std::int32_t unmeshed_material(const Deck& deck, const MaterialTable& materials) {
+  return deck.mesh_void ? kNone : materials.void_material.value_or(kNone);
+}
+
 // 1 for every cell that is no part of the mesh.
 std::vector<std::uint8_t> unmeshed_cells(const Deck& deck, const Overlay& overlay) {
   std::vector<std::uint8_t> drop(overlay.cells.hexes.size(), 0);
@@ -196,11 +201,38 @@ SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& ov
                         is_lattice ? overlay.numbered : Index3{0, 0, 0}, deck.gen_sidesets);
 }
 
-// Smoothing moves volumes a little; materials that were thickened to a volume get the rest of it here.
-void correct_thickened_volumes(const Deck& deck, HexMesh& mesh, const Geometry& geometry,
-                               const std::vector<double>& wanted, const Log& log, Stages& stages) {
-  if (std::none_of(wanted.begin(), wanted.end(), [](double v) { return v >= 0; })) return;
-  const VolumeCorrection done = correct_volumes(mesh, geometry.index, wanted, deck.pcol_threshold);
+// The volumes that materials shall have, in units of the overlay mesh; below 0: free.
+struct WantedVolumes {
+  std::vector<double> volume;
+  double most = std::numeric_limits<double>::infinity();  // relative error of one that is corrected
+};
+
+// Whether all materials get the volumes of the input.
+bool corrects_volumes(const Deck& deck, const Overlay& overlay) {
+  constexpr std::size_t kMostMaterials = 1000;  // their pressures are found from a full matrix
+  if (deck.volume_correction == kVolumesOn) return true;
+  return deck.volume_correction == kVolumesAutomatic && !overlay.pure && !goes_to_geometry(deck) &&
+         deck.stair == kStairOff && deck.smooth != kSmoothOff && deck.thicken_material.empty() &&
+         !deck.given("thicken_void") && !overlay.kept && overlay.materials.block_id.size() <= kMostMaterials;
+}
+
+WantedVolumes wanted_volumes(const Deck& deck, const Overlay& overlay, std::vector<double> thickened,
+                             const std::vector<double>& input_volume) {
+  if (!corrects_volumes(deck, overlay)) return {std::move(thickened)};
+  constexpr double kMostCorrected = 0.02;
+  const Vec3& h = overlay.cells.cell_size;
+  const std::int32_t unmeshed = unmeshed_material(deck, overlay.materials);
+  for (std::size_t m = 0; m < thickened.size(); ++m)
+    if (unmeshed != static_cast<std::int32_t>(m)) thickened[m] = h.x * h.y * h.z * input_volume[m];
+  return {std::move(thickened), kMostCorrected};
+}
+
+// Smoothing moves volumes a little; materials get the rest of what they should have here.
+void correct_to(const WantedVolumes& wanted, const Deck& deck, HexMesh& mesh, const Geometry& geometry,
+                const Log& log, Stages& stages) {
+  if (std::none_of(wanted.volume.begin(), wanted.volume.end(), [](double v) { return v >= 0; })) return;
+  const VolumeCorrection done =
+      correct_volumes(mesh, geometry.index, wanted.volume, deck.pcol_threshold, wanted.most);
   log.line("Volume correction: {} rounds, largest error left {:.4f} %, farthest move of a node {:.3f} cells",
            done.rounds, 100 * done.error, done.farthest);
   stages.end("correct volumes");
@@ -273,8 +305,8 @@ Meshed stair_mesh(const Comm& comm, const Deck& deck, const Overlay& overlay,
 }
 
 Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contour& shape,
-                    const std::vector<std::uint8_t>& drop, const std::vector<double>& wanted_volumes,
-                    const Log& log, Stages& stages) {
+                    const std::vector<std::uint8_t>& drop, const WantedVolumes& wanted, const Log& log,
+                    Stages& stages) {
   InterfaceTrack track = interface_track(overlay.cells, shape.faces, shape.placed);
   const LayerPlan plan = layer_plan(deck);
   keep_whole(comm, overlay.cells.exterior, overlay.cells, shape.faces);
@@ -305,7 +337,7 @@ Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contou
                      smooths && plan.smooth_after ? smooth : std::function<void(LayeredMesh&)>{}, log);
     stages.end("pillow curves");
   }
-  correct_thickened_volumes(deck, layered.mesh, layered.geometry, wanted_volumes, log, stages);
+  correct_to(wanted, deck, layered.mesh, layered.geometry, log, stages);
   for (GlobalId& node : track.node) node *= layered.node_factor;
   std::vector<NodeSetMembers> node_sets = carried_node_sets(overlay.sets, layered.mesh, layered.node_factor);
   std::vector<ExteriorPart> parts = exterior_parts(layered.mesh);
@@ -318,8 +350,8 @@ Meshed layered_mesh(const Comm& comm, const Deck& deck, Overlay& overlay, Contou
           std::move(parts),        std::move(node_sets), std::move(track)};
 }
 
-Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
-                  const std::vector<double>& wanted_volumes, const Log& log, Stages& stages) {
+Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, const WantedVolumes& wanted,
+                  const Log& log, Stages& stages) {
   const std::vector<std::uint8_t> drop = unmeshed_cells(deck, overlay);
   refuse_empty_mesh(comm, overlay, drop);
   const bool stair = deck.stair != kStairOff;
@@ -332,7 +364,7 @@ Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay,
   log.line("(7/9) generating buffer hexes...");
   log.line("(8/9) generating interior hexes...");
   Meshed meshed = stair ? stair_mesh(comm, deck, overlay, drop, log, stages)
-                        : layered_mesh(comm, deck, overlay, shape, drop, wanted_volumes, log, stages);
+                        : layered_mesh(comm, deck, overlay, shape, drop, wanted, log, stages);
   meshed.sides = std::move(sides);
   return meshed;
 }
@@ -490,7 +522,7 @@ int run(const Comm& comm, const Deck& deck) {
       input_volumes(comm, overlay.cells, overlay.fractions, overlay.materials.block_id.size());
   if (overlay.kept) add_volumes(comm, *overlay.kept, input_volume);
   overlay.neighbours = face_neighbours(overlay.cells);
-  const std::vector<double> wanted_volumes = classify(
+  std::vector<double> thickened = classify(
       comm, deck, overlay.cells, overlay.fractions, overlay.materials, overlay.neighbours, overlay.around,
       input_volume, [&] { return contoured_volumes(comm, deck, overlay); }, log, stages);
   hold_block_interfaces(comm, deck, overlay);
@@ -498,7 +530,8 @@ int run(const Comm& comm, const Deck& deck) {
   const Carried carried{overlay.block_names, overlay.sets.side_sets, overlay.sets.node_sets};
   if (exports_grid(deck)) write_grid(comm, deck, overlay, log, stages);
   input_volume.resize(materials.block_id.size(), 0);  // thicken_void may have added the void
-  Meshed meshed = build_mesh(comm, deck, std::move(overlay), wanted_volumes, log, stages);
+  const WantedVolumes wanted = wanted_volumes(deck, overlay, std::move(thickened), input_volume);
+  Meshed meshed = build_mesh(comm, deck, std::move(overlay), wanted, log, stages);
 
   log.line("building exodus mesh...");
   log.line("generating global ids...");

@@ -11,7 +11,7 @@ namespace sculpt {
 namespace {
 
 constexpr int kRounds = 4, kReturns = 10;
-constexpr double kCloseEnough = 2e-4;  // relative error of volume
+constexpr double kCloseEnough = 1e-5;  // relative error of volume
 constexpr double kFarthest = 0.1;      // way of a node per round, in cells
 constexpr double kLeastEdge = 0.1;     // in cells; shorter edges may not become shorter
 
@@ -61,6 +61,15 @@ class Corrector {
     for (std::size_t m = 0; m < wanted.size(); ++m)
       if (wanted[m] >= 0) place_of_[m] = count_++;
     find_hexes();
+  }
+
+  // The wanted volumes of the materials that are off by this share at most.
+  [[nodiscard]] std::vector<double> wanted_within(double most) const {
+    std::vector<double> wanted(wanted_.begin(), wanted_.end());
+    const std::vector<double> missing = missing_volumes();
+    for (std::size_t m = 0; m < wanted.size(); ++m)
+      if (wanted[m] >= 0 && std::fabs(missing[at(place_of_[m])]) * cell_ > most * wanted[m]) wanted[m] = -1;
+    return wanted;
   }
 
   VolumeCorrection run() {
@@ -250,8 +259,9 @@ class Corrector {
 }  // namespace
 
 VolumeCorrection correct_volumes(HexMesh& mesh, std::span<const LocalId> interface,
-                                 std::span<const double> wanted, double least_quality) {
-  return Corrector(mesh, interface, wanted, least_quality).run();
+                                 std::span<const double> wanted, double least_quality, double most) {
+  const std::vector<double> chosen = Corrector(mesh, interface, wanted, least_quality).wanted_within(most);
+  return Corrector(mesh, interface, chosen, least_quality).run();
 }
 
 }  // namespace sculpt

@@ -86,6 +86,9 @@ enum Pillow : int {
   kPillowCurvesSmoothed = 210,     // + number of layers
 };
 
+// An option of ours, not Sculpt's.
+enum VolumeCorrectionMode : int { kVolumesAutomatic = 0, kVolumesOff = 1, kVolumesOn = 2 };
+
 enum CaptureMode : int { kCaptureOff = 0, kCaptureCurves = 5 };  // 1 to 4: surfaces only
 
 enum Defeature : int { kDefeatureOff = 0, kDefeatureFilter = 1, kDefeatureCollapse = 2, kDefeatureAll = 3 };
@@ -292,6 +295,7 @@ struct Deck {
   double pillow_curve_thresh = 0.3;
   bool pillow_smooth_off = false;
   int pillow_boundary_layers = 0;
+  int volume_correction = kVolumesAutomatic;  // ours
   int capture = 0;
   double capture_angle = 30;      // degrees
   std::int64_t capture_side = 0;  // 0: all

@@ -1,5 +1,6 @@
 #pragma once
 // Gives materials of a smooth mesh the volumes they should have, by small moves of the interfaces.
+#include <limits>
 #include <span>
 
 #include "sculpt/mesh/hex_mesh.hpp"
@@ -18,8 +19,10 @@ struct VolumeCorrection {
 // shorter moves, the size of the cells at the node; the pressures follow from the missing volumes (the linear
 // system of the first-order changes). Nodes of hexes that would fall below `least_quality` (scaled Jacobian;
 // or below what they have, if that is less) stay where they are; so do nodes of hexes whose edges would
-// become short. Needs one ghost layer.
+// become short. A material whose volume is off by more than the share `most` is free as well. Needs one ghost
+// layer.
 VolumeCorrection correct_volumes(HexMesh& mesh, std::span<const LocalId> interface,
-                                 std::span<const double> wanted, double least_quality);
+                                 std::span<const double> wanted, double least_quality,
+                                 double most = std::numeric_limits<double>::infinity());
 
 }  // namespace sculpt

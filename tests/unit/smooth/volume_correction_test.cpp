@@ -52,6 +52,17 @@ TEST(CorrectVolumes, MovesNothingWhereTheVolumesAreRight) {
   EXPECT_EQ(done.rounds, 0);
 }
 
+TEST(CorrectVolumes, LeavesAloneWhatIsTooFarOff) {
+  test::StagesResult r = test::run_stages(Comm::self(), test::grains({12, 11, 10}, 9, 3, 3));
+  const std::vector<double> before = volumes(r.mesh, 3);
+  const std::vector<double> wanted{before[0] * 1.01, before[1] * 1.05, -1};
+  const VolumeCorrection done = correct_volumes(r.mesh, interface_nodes(r.mesh), wanted, 0.3, 0.02);
+  const std::vector<double> after = volumes(r.mesh, 3);
+  EXPECT_NEAR(after[0], wanted[0], 1e-4 * wanted[0]);
+  EXPECT_LT(after[1], before[1] * 1.01);
+  EXPECT_LT(done.error, 1e-4) << "of those that are corrected";
+}
+
 TEST(CorrectVolumes, DoesNotBuyVolumeWithQuality) {
   test::StagesResult r = test::run_stages(Comm::self(), test::ball({10, 10, 10}, {5, 5, 5}, 2.2));
   const std::vector<double> before = volumes(r.mesh, 2);

@@ -21,7 +21,7 @@ done
 generator=()
 [ -f "$build/CMakeCache.txt" ] || ! command -v ninja >/dev/null || generator=(-G Ninja)
 cmake -S "$project" -B "$build" "${generator[@]}" -DCMAKE_BUILD_TYPE=Release -DSCULPT_TESTS=OFF >/dev/null
-cmake --build "$build" --parallel --target sculpt eputool microstructure hexmesh
+cmake --build "$build" --parallel --target sculpt eputool microstructure hexmesh solid
 
 export PATH=$build/apps:$build/examples/generators:$PATH
 meshes=()

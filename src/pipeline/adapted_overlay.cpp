@@ -364,6 +364,7 @@ class Adapter {
     out.grid = out.numbered = grid_.cells;
     out.pure = material.pure;
     out.exact = source_.exact_surface();
+    out.geometry = wanted_surfaces(deck_, source_);
     return out;
   }
   Overlay overlay(LeafMesh mesh, Material& material) const {

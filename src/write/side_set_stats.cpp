@@ -45,7 +45,8 @@ struct Sums {
 
 double quad_area(const std::array<Vec3, 4>& corner) {
   const auto& [a, b, c, d] = corner;
-  return 0.5 * (norm(cross(b - a, c - a)) + norm(cross(c - a, d - a)));
+  return 0.25 * (norm(cross(b - a, c - a)) + norm(cross(c - a, d - a)) + norm(cross(c - b, d - b)) +
+                 norm(cross(d - b, a - b)));
 }
 
 double quad_scaled_jacobian(const std::array<Vec3, 4>& corner) {

@@ -11,7 +11,7 @@
 
 namespace sculpt {
 
-// Of a quad, whose corners go around it: the area of its two triangles at the diagonal 0-2, and the scaled
+// Of a quad, whose corners go around it: the area, the mean of those by its two diagonals, and the scaled
 // Jacobian, the least sine of its corners, against the normal in the middle (1 for a rectangle, 0 or less
 // where a corner is flat or turned over).
 [[nodiscard]] double quad_area(const std::array<Vec3, 4>& corner);

@@ -19,18 +19,17 @@ constexpr EnumValue kHtetTransitions[] = {
 constexpr EnumValue kAxes[] = {{"none", kAxisNone}, {"x", kAxisX}, {"y", kAxisY}, {"z", kAxisZ}};
 constexpr EnumValue kDirections[] = {{"xyz", kAlongXYZ}, {"x", kAlongX},   {"y", kAlongY},  {"z", kAlongZ},
                                      {"xy", kAlongXY},   {"xz", kAlongXZ}, {"yz", kAlongYZ}};
-constexpr EnumValue kGenSidesets[] = {
-    {"off", kSidesetsOff},
-    {"none", kSidesetsOff},
-    {"fixed", kSidesetsFixed},
-    {"variable", kSidesetsVariable},
-    {"geometric_surfaces", kSidesetsGeometricSurfaces, false},
-    {"geometric_sidesets", kSidesetsGeometricSidesets, false},
-    {"rve", kSidesetsRve},
-    {"input_mesh_and_stl", kSidesetsInputMeshAndStl, false},
-    {"input_mesh_and_free_surfaces", kSidesetsInputMeshAndFreeSurfaces, false},
-    {"rve_variable", kSidesetsRveVariable, false},
-    {"input_mesh", kSidesetsInputMesh}};
+constexpr EnumValue kGenSidesets[] = {{"off", kSidesetsOff},
+                                      {"none", kSidesetsOff},
+                                      {"fixed", kSidesetsFixed},
+                                      {"variable", kSidesetsVariable},
+                                      {"geometric_surfaces", kSidesetsGeometricSurfaces},
+                                      {"geometric_sidesets", kSidesetsGeometricSidesets},
+                                      {"rve", kSidesetsRve},
+                                      {"input_mesh_and_stl", kSidesetsInputMeshAndStl},
+                                      {"input_mesh_and_free_surfaces", kSidesetsInputMeshAndFreeSurfaces},
+                                      {"rve_variable", kSidesetsRveVariable},
+                                      {"input_mesh", kSidesetsInputMesh}};
 constexpr EnumValue kAdaptTypes[] = {{"off", kAdaptOff},
                                      {"none", kAdaptOff},
                                      {"facet_to_surface", kAdaptFacetToSurface},
@@ -421,7 +420,10 @@ constexpr OptionSpec kBoundaryConditionOptions[] = {
      .group = kB,
      .slot = &Deck::separate_void_blocks,
      .help = "One block per void region",
-     .about = "Each connected region of void gets its own block."},
+     .about =
+         "Used with mesh_void. Each region of void that hangs together through faces is a block of its own: "
+         "the first keeps the id of the void, the others get the ids after the largest.",
+     .supported = true},
     {.name = "material_name",
      .flag = "-mn",
      .group = kB,
@@ -435,7 +437,7 @@ constexpr OptionSpec kBoundaryConditionOptions[] = {
      .group = kB,
      .slot = &Deck::sideset_name,
      .help = "Name of a sideset",
-     .about = "Id and name; one line per sideset made by gen_sidesets.",
+     .about = "Id and name; one line per sideset, whatever made it.",
      .supported = true,
      .unset = "none"},
     {.name = "nodeset_name",
@@ -443,21 +445,27 @@ constexpr OptionSpec kBoundaryConditionOptions[] = {
      .group = kB,
      .slot = &Deck::nodeset_name,
      .help = "Name of a nodeset",
-     .about = "Id and name; one line per nodeset.",
+     .about = "Id and name; one line per nodeset, whatever made it.",
+     .supported = true,
      .unset = "none"},
     {.name = "sideset",
      .flag = "-sid",
      .group = kB,
      .slot = &Deck::sideset,
      .help = "Sideset by a box",
-     .about = "The faces on the boundary inside a box; one line per sideset.",
+     .about = "Id and xmin ymin zmin xmax ymax zmax, in the coordinates of the written mesh: the faces on "
+              "the boundary "
+              "of the mesh whose four nodes lie in this box or within a thousandth of a cell of it. Lines "
+              "with one id unite.",
+     .supported = true,
      .unset = "none"},
     {.name = "nodeset",
      .flag = "-nid",
      .group = kB,
      .slot = &Deck::nodeset,
      .help = "Nodeset by a box",
-     .about = "The nodes on the boundary inside a box; one line per nodeset.",
+     .about = "As sideset: the nodes on the boundary of the mesh that lie in the box.",
+     .supported = true,
      .unset = "none"},
     {.name = "gen_sidesets",
      .flag = "-SS",
@@ -467,9 +475,27 @@ constexpr OptionSpec kBoundaryConditionOptions[] = {
      .about =
          "fixed: 1 = faces on the boundary of the grid, 2 = outer faces of materials, 3 = interfaces between "
          "materials. variable: one set per connected piece of surface, on the sides of the box and between "
-         "touching regions. rve: the six sides of the box.",
+         "touching regions. geometric_surfaces, geometric_sidesets: one set per surface, or per named part, "
+         "of "
+         "the geometry. rve: the six sides of the box. rve_variable: these, and from 7 on the surfaces of "
+         "variable that are not on the box. input_mesh: the sets of the input mesh; with "
+         "_and_stl also one set per surface of the geometry, with _and_free_surfaces one per new surface "
+         "towards what is not meshed.",
      .supported = true,
      .values = kGenSidesets},
+    {.name = "rve_sets",
+     .flag = "",
+     .group = kB,
+     .slot = &Deck::rve_sets,
+     .help = "Named sets for representative volumes",
+     .about =
+         "Nodesets of the sides, edges and corners of the box (xmin, xmin_ymin, ...), in periodic meshes in "
+         "the "
+         "order of their partners; sidesets of the faces between each two blocks that touch, and of each "
+         "block towards what is not meshed. Their ids follow those of all other sets. An option of this "
+         "program.",
+     .supported = true,
+     .takes_argument = true},
     {.name = "free_surface_sideset",
      .flag = "-FS",
      .group = kB,

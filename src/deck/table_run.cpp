@@ -385,7 +385,8 @@ constexpr OptionSpec kOutputOptions[] = {
      .group = kO,
      .slot = &Deck::compute_ss_stats,
      .help = "Print sideset statistics",
-     .about = "Prints statistics of the sidesets."},
+     .about = "At the end: faces, area, quality of the faces and bounds of every sideset.",
+     .supported = true},
 };
 
 }  // namespace

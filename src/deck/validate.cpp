@@ -72,6 +72,16 @@ bool wrong_part(const Deck& deck) {
   return product > deck.num_procs || deck.num_procs % product != 0;
 }
 
+bool carries_sets(const Deck& deck) {
+  return deck.gen_sidesets == kSidesetsInputMesh || deck.gen_sidesets == kSidesetsInputMeshAndStl ||
+         deck.gen_sidesets == kSidesetsInputMeshAndFreeSurfaces;
+}
+
+bool wants_surfaces(const Deck& deck) {
+  return deck.gen_sidesets == kSidesetsGeometricSurfaces || deck.gen_sidesets == kSidesetsGeometricSidesets ||
+         deck.gen_sidesets == kSidesetsInputMeshAndStl;
+}
+
 bool coarsens(const Deck& deck) {
   return deck.adapt_type == kAdaptCoarsen || deck.adapt_type == kAdaptResample;
 }
@@ -117,10 +127,15 @@ const std::vector<Rule>& rules() {
       {[](const Deck& d) { return d.given("input_mesh_blocks") && !has_mesh(d); },
        {"input_mesh_blocks"},
        "input_mesh_blocks needs input_mesh or input_mesh_pamgen"},
-      {[](const Deck& d) { return d.gen_sidesets == kSidesetsInputMesh && !has_mesh(d); },
+      {[](const Deck& d) { return carries_sets(d) && !has_mesh(d); },
        {"gen_sidesets"},
-       "gen_sidesets = input_mesh carries the sets of an input mesh over; give input_mesh or "
-       "input_mesh_pamgen"},
+       "gen_sidesets = input_mesh, input_mesh_and_stl and input_mesh_and_free_surfaces carry the sets of an "
+       "input mesh over; give input_mesh or input_mesh_pamgen"},
+      {[](const Deck& d) { return wants_surfaces(d) && !d.given("diatom_file") && !d.given("stl_file"); },
+       {"gen_sidesets"},
+       "gen_sidesets = geometric_surfaces, geometric_sidesets and input_mesh_and_stl need a geometry that "
+       "has "
+       "surfaces, not fractions or voxels; give diatom_file or stl_file"},
       {[](const Deck& d) { return d.given("input_spn") && !has_counts(d); }, counts,
        "input_spn needs the number of cells nelx, nely and nelz", Tell::kMissing},
       {[](const Deck& d) { return d.given("diatom_file") && !has_mesh(d) && !has_counts(d); }, counts,

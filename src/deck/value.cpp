@@ -127,9 +127,12 @@ void assign(std::vector<IdName>& field, std::span<const std::string> words, cons
   field.push_back({id(words[0], c), words[1]});
 }
 void assign(std::vector<IdBox>& field, std::span<const std::string> words, const Complaint& c) {
-  IdBox record{id(words[0], c), {}};
+  IdBox record{integer<std::int64_t>(words[0], 1, kMaxId, c), {}};
   for (std::size_t i = 0; i < record.box.size(); ++i)
     record.box[i] = real(words[i + 1], -HUGE_VAL, HUGE_VAL, c);
+  for (std::size_t d = 0; d < 3; ++d)
+    if (!(record.box[d] <= record.box[d + 3]))
+      c.fail("an id and a box, xmin ymin zmin xmax ymax zmax, whose lower ends are not above the upper ones");
   field.push_back(record);
 }
 void assign(std::vector<NumberRecord>& field, std::span<const std::string> words, const Complaint& c) {

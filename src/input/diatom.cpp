@@ -1,7 +1,10 @@
 #include "input/diatom.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "input/deck_grid.hpp"
 #include "input/diatom_file.hpp"
@@ -20,6 +23,7 @@ class DiatomSource final : public MaterialSource {
     std::sort(table_.block_id.begin(), table_.block_id.end());
     table_.block_id.erase(std::unique(table_.block_id.begin(), table_.block_id.end()), table_.block_id.end());
     add_void(deck);
+    name_surfaces(shapes);
     auto inserted = std::make_shared<std::vector<InsertedShape>>();
     for (DiatomShape& shape : shapes) inserted->push_back({std::move(shape.shape), dense(shape.material)});
     shapes_ = std::move(inserted);
@@ -50,10 +54,32 @@ class DiatomSource final : public MaterialSource {
 
   [[nodiscard]] ExactSurface exact_surface() const override { return surfaces_of(shapes_, grid_); }
 
+  [[nodiscard]] GeometrySurfaces geometry_surfaces() const override {
+    GeometrySurfaces surfaces = surfaces_;
+    surfaces.nearest = nearest_shape_of(shapes_, grid_);
+    return surfaces;
+  }
+
  private:
   [[nodiscard]] std::int32_t dense(std::int64_t id) const {
     const auto at = std::lower_bound(table_.block_id.begin(), table_.block_id.end(), id);
     return static_cast<std::int32_t>(at - table_.block_id.begin());
+  }
+
+  // Every shape is a surface, packages of one name are one part.
+  void name_surfaces(const std::vector<DiatomShape>& shapes) {
+    std::map<std::string, std::int32_t> part;
+    std::vector<std::int64_t> members;
+    for (const DiatomShape& shape : shapes) {
+      const auto [found, is_new] =
+          part.try_emplace(shape.package, static_cast<std::int32_t>(surfaces_.part_name.size()));
+      if (is_new) {
+        surfaces_.part_name.push_back(shape.package);
+        members.push_back(0);
+      }
+      surfaces_.part_of_surface.push_back(found->second);
+      surfaces_.surface_name.push_back(fmt::format("{} {}", shape.package, ++members[at(found->second)]));
+    }
   }
 
   // A meshed void may join a material of the user's. A void that is not meshed stays apart: void_mat names
@@ -74,7 +100,8 @@ class DiatomSource final : public MaterialSource {
   Log log_;
   MaterialTable table_;
   std::shared_ptr<const std::vector<InsertedShape>> shapes_;
-  std::int32_t outside_ = 0;  // dense index of what no shape covers
+  GeometrySurfaces surfaces_;  // without nearest
+  std::int32_t outside_ = 0;   // dense index of what no shape covers
 };
 
 // A grid to find shapes by: cubes, about eight per shape.

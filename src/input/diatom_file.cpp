@@ -128,10 +128,12 @@ class DiatomParser {
   }
 
   void parse_package(const Word& opening) {
-    if (!words_.done() && words_.peek().in_quotes) words_.take();
+    std::string name;
     // A name without quotes is what no keyword of a package is.
-    else if (!words_.done() && !begins_package_line(words_.peek()))
-      words_.take();
+    if (!words_.done() && (words_.peek().in_quotes || !begins_package_line(words_.peek())))
+      name = words_.take().text;
+    ++packages_;
+    if (name.empty()) name = fmt::format("package_{}", packages_);
     std::optional<std::int64_t> material;
     const std::size_t first = shapes_.size();
     while (true) {
@@ -148,7 +150,10 @@ class DiatomParser {
       }
     }
     if (!material) words_.fail_at(opening.line, "the package has no material, expected 'material <id>'");
-    for (std::size_t s = first; s < shapes_.size(); ++s) shapes_[s].material = *material;
+    for (std::size_t s = first; s < shapes_.size(); ++s) {
+      shapes_[s].material = *material;
+      shapes_[s].package = name;
+    }
   }
   static bool begins_package_line(const Word& word) {
     return is_keyword(word, "material", 3) || is_keyword(word, "insert", 3) ||
@@ -188,7 +193,7 @@ class DiatomParser {
     }
     if (!center) words_.fail_at(opening.line, "the sphere has no center, expected 'center = x y z'");
     if (!radius) words_.fail_at(opening.line, "the sphere has no radius, expected 'radius = r'");
-    shapes_.push_back({std::make_unique<Sphere>(*center, *radius), 0});
+    shapes_.push_back({std::make_unique<Sphere>(*center, *radius), 0, {}});
   }
 
   // The next word of a block that must be closed.
@@ -204,6 +209,7 @@ class DiatomParser {
   Words words_;
   const std::string& path_;
   std::vector<DiatomShape> shapes_;
+  std::int64_t packages_ = 0;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace sculpt {
 struct DiatomShape {
   std::unique_ptr<Shape> shape;
   std::int64_t material = 0;  // the user's id, >= 1
+  std::string package;        // its name; of one without: package_<place in the file, from 1>
 };
 
 // Local. The shapes in the order of insertion, at least one. `path` is for messages: Error with file and

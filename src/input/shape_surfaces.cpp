@@ -17,8 +17,13 @@ class ShapeSurfaces {
         reach_(kReach * largest(grid.cell_size())),
         index_(*shapes_, space_of(grid), reach_) {}
 
-  [[nodiscard]] std::optional<Vec3> nearest(const Vec3& p, std::int32_t a, std::int32_t b) const {
-    std::optional<Vec3> best;
+  struct Place {
+    std::int32_t shape;
+    Vec3 point;
+  };
+
+  [[nodiscard]] std::optional<Place> nearest(const Vec3& p, std::int32_t a, std::int32_t b) const {
+    std::optional<Place> best;
     double least = reach_;
     const std::span<const std::int32_t> candidates = index_.around(p);
     for (const std::int32_t s : candidates) {
@@ -27,7 +32,7 @@ class ShapeSurfaces {
       const std::optional<Vec3> q = shape.shape->nearest_on_surface(p);
       if (!q || !(norm(*q - p) < least) || hidden(*q, s, candidates)) continue;
       least = norm(*q - p);
-      best = q;
+      best = Place{s, *q};
     }
     return best;
   }
@@ -54,7 +59,19 @@ class ShapeSurfaces {
 
 ExactSurface surfaces_of(std::shared_ptr<const std::vector<InsertedShape>> shapes, const Grid& grid) {
   const auto surfaces = std::make_shared<const ShapeSurfaces>(std::move(shapes), grid);
-  return [surfaces](const Vec3& p, std::int32_t a, std::int32_t b) { return surfaces->nearest(p, a, b); };
+  return [surfaces](const Vec3& p, std::int32_t a, std::int32_t b) -> std::optional<Vec3> {
+    const auto found = surfaces->nearest(p, a, b);
+    return found ? std::optional(found->point) : std::nullopt;
+  };
+}
+
+std::function<std::optional<std::int32_t>(const Vec3&, std::int32_t, std::int32_t)> nearest_shape_of(
+    std::shared_ptr<const std::vector<InsertedShape>> shapes, const Grid& grid) {
+  const auto surfaces = std::make_shared<const ShapeSurfaces>(std::move(shapes), grid);
+  return [surfaces](const Vec3& p, std::int32_t a, std::int32_t b) -> std::optional<std::int32_t> {
+    const auto found = surfaces->nearest(p, a, b);
+    return found ? std::optional(found->shape) : std::nullopt;
+  };
 }
 
 }  // namespace sculpt

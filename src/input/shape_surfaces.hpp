@@ -15,4 +15,8 @@ namespace sculpt {
 [[nodiscard]] ExactSurface surfaces_of(std::shared_ptr<const std::vector<InsertedShape>> shapes,
                                        const Grid& grid);
 
+// The same search, answering with the shape, by its place in the order of insertion.
+[[nodiscard]] std::function<std::optional<std::int32_t>(const Vec3&, std::int32_t, std::int32_t)>
+nearest_shape_of(std::shared_ptr<const std::vector<InsertedShape>> shapes, const Grid& grid);
+
 }  // namespace sculpt

@@ -112,6 +112,23 @@ void print_volumes(const Log& log, const QualityReport& report) {
   row("Total", input, meshed);
 }
 
+void print_side_sets(const Log& log, std::span<const SideSetStats> stats,
+                     const std::map<std::int64_t, std::string>& names) {
+  log.line();
+  log.line("SIDESETS");
+  log.line("  {:>8} {:>9} {:>14} {:>9} {:>9} {:>9}  {:<38}  {}", "Id", "Faces", "Area", "Min SJ", "Avg SJ",
+           "Max SJ", "Bounds", "Name");
+  for (const SideSetStats& s : stats) {
+    const auto name = names.find(s.id);
+    const auto& [lo, hi] = s.bounds;
+    log.line(
+        "  {:>8} {:>9} {:>14.6g} {:>9.4f} {:>9.4f} {:>9.4f}  {:<38}  {}", s.id, s.faces, s.area, s.least,
+        s.mean, s.most,
+        s.faces == 0 ? "" : fmt::format("{:g} {:g} {:g}, {:g} {:g} {:g}", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z),
+        name == names.end() ? "" : name->second);
+  }
+}
+
 void print_removed(const Log& log, const Deck& deck, const MaterialTable& materials,
                    const std::vector<std::int64_t>& removed) {
   std::int64_t all = 0;

@@ -9,6 +9,7 @@
 #include "sculpt/input/material_source.hpp"
 #include "sculpt/quality/fidelity.hpp"
 #include "sculpt/smooth/smooth.hpp"
+#include "sculpt/write/side_set_stats.hpp"
 #include "sculpt/write/write_mesh.hpp"
 
 namespace sculpt {
@@ -26,6 +27,9 @@ void print_mesh_summary(const Comm& comm, const Log& log, const Deck& deck, cons
                         const QualityReport& report);
 // The table of compare_volume: input, mesh and error in percent, for each material that is meshed and in all.
 void print_volumes(const Log& log, const QualityReport& report);
+// The table of compute_ss_stats.
+void print_side_sets(const Log& log, std::span<const SideSetStats> stats,
+                     const std::map<std::int64_t, std::string>& names);
 // What remove_bad did; removed: hexes of each material.
 void print_removed(const Log& log, const Deck& deck, const MaterialTable& materials,
                    const std::vector<std::int64_t>& removed);

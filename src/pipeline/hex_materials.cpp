@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "pipeline/overlay.hpp"
 #include "sculpt/input/element_fractions.hpp"
 
 namespace sculpt {
@@ -162,6 +163,7 @@ HexMaterials materials_of_source(const Comm& comm, const Deck& deck, const HexLi
     for (std::size_t h = 0; h < hexes.size; ++h) field->measure(hexes.corners(h), m.owned);
   });
   m.exact = source->exact_surface();
+  m.geometry = wanted_surfaces(deck, *source);
   m.pure = data && all_pure(comm, m.owned);
   return m;
 }
@@ -213,15 +215,17 @@ std::vector<std::int32_t> add_blocks(const Comm& comm, const Deck& deck, HexMate
   index.insert(index.end(), of_block.begin(), of_block.end());
   if (has_void) table.void_material = index[at(*m.table.void_material)];
   m.owned = renumbered(m.owned, index);
-  if (m.exact) {
-    // Its questions come in new indices.
-    std::vector<std::int32_t> old(table.block_id.size(), kNone);
-    for (std::size_t i = 0; i < sources; ++i)
-      if (index[i] != kNone) old[at(index[i])] = static_cast<std::int32_t>(i);
-    m.exact = [exact = std::move(m.exact), old](const Vec3& p, std::int32_t a, std::int32_t b) {
-      return exact(p, old[at(a)], old[at(b)]);
+  // Questions come in new indices.
+  std::vector<std::int32_t> old(table.block_id.size(), kNone);
+  for (std::size_t i = 0; i < sources; ++i)
+    if (index[i] != kNone) old[at(index[i])] = static_cast<std::int32_t>(i);
+  const auto in_old = [&old](auto ask) {
+    return [ask = std::move(ask), old](const Vec3& p, std::int32_t a, std::int32_t b) {
+      return ask(p, a < 0 ? a : old[at(a)], b < 0 ? b : old[at(b)]);
     };
-  }
+  };
+  if (m.exact) m.exact = in_old(std::move(m.exact));
+  if (m.geometry.nearest) m.geometry.nearest = in_old(std::move(m.geometry.nearest));
   m.table = std::move(table);
   return of_block;
 }

@@ -26,7 +26,8 @@ struct HexMaterials {
   bool void_added = false;  // the void of the table is no material of the input
   Fractions owned;          // of this rank's hexes, in their order
   ExactSurface exact;       // what the input knows of its surfaces
-  bool pure = true;         // on all ranks every hex holds one material only
+  GeometrySurfaces geometry;
+  bool pure = true;  // on all ranks every hex holds one material only
 };
 
 // Collective. From a fraction per element variable. element: numbers of the hexes; value: one per variable of

@@ -55,6 +55,7 @@ Overlay read_uniform(const Comm& comm, const Deck& deck, MaterialSource& source,
                   true,
                   source.exact_surface(),
                   source.features(),
+                  wanted_surfaces(deck, source),
                   {},
                   {},
                   {},
@@ -71,6 +72,15 @@ Overlay read_uniform(const Comm& comm, const Deck& deck, MaterialSource& source,
 }
 
 }  // namespace
+
+GeometrySurfaces wanted_surfaces(const Deck& deck, const MaterialSource& source) {
+  if (deck.gen_sidesets != kSidesetsGeometricSurfaces && deck.gen_sidesets != kSidesetsGeometricSidesets &&
+      deck.gen_sidesets != kSidesetsInputMeshAndStl)
+    return {};
+  GeometrySurfaces surfaces = source.geometry_surfaces();
+  check(!surfaces.empty(), "the geometry does not tell its surfaces");
+  return surfaces;
+}
 
 Overlay read_on_grid(const Comm& comm, const Deck& deck, MaterialSource& source, const Log& log,
                      Stages& stages) {

@@ -18,7 +18,7 @@
 
 namespace sculpt {
 
-// Sets of an input mesh that are carried over (gen_sidesets = input_mesh).
+// Sets of an input mesh that are carried over (gen_sidesets = input_mesh and those that add to it).
 struct InputSets {
   struct Set {
     std::int64_t id;
@@ -42,6 +42,7 @@ struct Overlay {
   bool pure = true;          // on all ranks every cell of the input holds one material only
   ExactSurface exact;        // what the input knows of its surfaces
   std::shared_ptr<const GeometryFeatures> features;  // and of their edges and corners; null: nothing
+  GeometrySurfaces geometry;                         // empty unless side sets are made of it
   // Of an input mesh.
   std::optional<HexMesh> kept;  // hexes that stay as they are; cells has the others
   std::map<std::int64_t, std::string> block_names;
@@ -52,7 +53,9 @@ struct Overlay {
 
 // Collective. Opens and reads the input of the deck. Adjacency is left for later.
 [[nodiscard]] Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages);
-// The same for a source that is open, on its grid.
+// Local. The surfaces of the geometry; empty unless gen_sidesets asks for them.
+[[nodiscard]] GeometrySurfaces wanted_surfaces(const Deck& deck, const MaterialSource& source);
+// As read_overlay for a source that is open, on its grid.
 [[nodiscard]] Overlay read_on_grid(const Comm& comm, const Deck& deck, MaterialSource& source, const Log& log,
                                    Stages& stages);
 

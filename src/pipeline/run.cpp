@@ -15,9 +15,11 @@
 #include "pipeline/console.hpp"
 #include "pipeline/interface_geometry.hpp"
 #include "pipeline/layers.hpp"
+#include "pipeline/mesh_sets.hpp"
 #include "pipeline/overlay.hpp"
 #include "pipeline/periodicity.hpp"
 #include "pipeline/unstructured_overlay.hpp"
+#include "pipeline/void_regions.hpp"
 #include "sculpt/base/fixed_point.hpp"
 #include "sculpt/brep/brep.hpp"
 #include "sculpt/brep/exterior.hpp"
@@ -36,7 +38,9 @@
 #include "sculpt/smooth/smooth.hpp"
 #include "sculpt/smooth/volume_correction.hpp"
 #include "sculpt/vfrac/fractions.hpp"
+#include "sculpt/write/node_sets.hpp"
 #include "sculpt/write/quality_file.hpp"
+#include "sculpt/write/side_set_stats.hpp"
 #include "sculpt/write/side_sets.hpp"
 #include "sculpt/write/write_mesh.hpp"
 
@@ -167,10 +171,9 @@ Contour stair_interfaces(Overlay& overlay, const std::vector<std::uint8_t>& drop
   return {trace_interfaces(overlay.cells, overlay.neighbours), {}, {}, {}, {}, {}};
 }
 
-// The faces of the side sets of the input mesh whose hexes are meshed.
-SidePlan carried_sets(const Comm& comm, const Overlay& overlay, const std::vector<std::uint8_t>& drop,
-                      const Log& log) {
-  SidePlan plan;
+// Adds the faces of the side sets of the input mesh whose hexes are meshed.
+void carry_sets(const Comm& comm, const Overlay& overlay, const std::vector<std::uint8_t>& drop,
+                SidePlan& plan, const Log& log) {
   std::int64_t lost = 0;
   const auto owned = [](const HexMesh& mesh, GlobalId id) {
     const auto found = std::lower_bound(mesh.hex_id.begin(), mesh.hex_id.end(), id);
@@ -186,6 +189,65 @@ SidePlan carried_sets(const Comm& comm, const Overlay& overlay, const std::vecto
   }
   if (lost = comm.sum(lost); lost > 0)
     log.line("WARNING: {} faces in side sets of the input mesh belong to hexes that are not meshed", lost);
+}
+
+// The sets of the geometry: a surface or a part has the id after `last` that its place in the geometry has.
+class GeometrySets {
+ public:
+  GeometrySets(const Deck& deck, const Overlay& overlay, const std::vector<std::uint8_t>& drop,
+               std::int64_t last)
+      : overlay_(overlay),
+        drop_(drop),
+        parts_(deck.gen_sidesets == kSidesetsGeometricSidesets),
+        last_(last) {}
+
+  // The set of an interface face; 0, which is counted, where no surface is near.
+  std::int64_t set_of(const InterfaceQuad& quad) {
+    Vec3 middle;
+    for (const LocalId n : quad.node) middle += 0.25 * overlay_.cells.position[at(n)];
+    const auto material = [&](LocalId cell) {
+      return drop_[at(cell)] != 0 ? unmeshed() : overlay_.cells.material[at(cell)];
+    };
+    const auto surface = overlay_.geometry.nearest(middle, material(quad.cell[0]), material(quad.cell[1]));
+    if (!surface) {
+      ++lost_;
+      return 0;
+    }
+    return last_ + 1 + (parts_ ? overlay_.geometry.part_of_surface[at(*surface)] : *surface);
+  }
+
+  // Collective.
+  void finish(const Comm& comm, SidePlan& plan, const Log& log) const {
+    const auto& names = parts_ ? overlay_.geometry.part_name : overlay_.geometry.surface_name;
+    for (const std::int64_t id : plan.ids) plan.names[id] = names[static_cast<std::size_t>(id - last_ - 1)];
+    if (const std::int64_t lost = comm.sum(lost_); lost > 0)
+      log.line("WARNING: {} faces of interfaces are near no surface of the geometry; they are in no sideset",
+               lost);
+  }
+
+ private:
+  [[nodiscard]] std::int32_t unmeshed() const { return overlay_.materials.void_material.value_or(-1); }
+
+  const Overlay& overlay_;
+  const std::vector<std::uint8_t>& drop_;
+  bool parts_;
+  std::int64_t last_, lost_ = 0;
+};
+
+// The side sets of gen_sidesets.
+SidePlan generated_sets(const Comm& comm, const Deck& deck, const Overlay& overlay, const Interfaces& faces,
+                        const Brep& brep, const std::vector<std::uint8_t>& drop, const Log& log) {
+  SideSetWish wish;
+  wish.gen_sidesets = deck.gen_sidesets;
+  if (overlay.cells.lattice[0] != 0) wish.grid = overlay.numbered;
+  for (const InputSets::Set& set : overlay.sets.side_sets) wish.after = std::max(wish.after, set.id);
+  if (overlay.kept) wish.kept = &*overlay.kept;
+  GeometrySets geometry(deck, overlay, drop, wish.after);
+  wish.set_of = [&](const InterfaceQuad& quad) { return geometry.set_of(quad); };
+  SidePlan plan = plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop, wish);
+  if (!overlay.geometry.empty()) geometry.finish(comm, plan, log);
+  if (overlay.sets.wanted) carry_sets(comm, overlay, drop, plan, log);
+  check_set_ids(deck, plan.ids, overlay.sets);
   return plan;
 }
 
@@ -195,10 +257,7 @@ SidePlan generate_geometry(const Comm& comm, const Deck& deck, const Overlay& ov
   const Brep brep = build_brep(comm, overlay.cells, overlay.neighbours, faces);
   log.line("  {} volumes, {} surfaces, {} curves, {} vertices", brep.volumes, brep.surfaces, brep.curves,
            brep.vertices);
-  if (overlay.sets.wanted) return carried_sets(comm, overlay, drop, log);
-  const bool is_lattice = overlay.cells.lattice[0] != 0;
-  return plan_side_sets(comm, overlay.cells, overlay.neighbours, faces, brep, drop,
-                        is_lattice ? overlay.numbered : Index3{0, 0, 0}, deck.gen_sidesets);
+  return generated_sets(comm, deck, overlay, faces, brep, drop, log);
 }
 
 // The volumes that materials shall have, in units of the overlay mesh; below 0: free.
@@ -371,7 +430,8 @@ Meshed build_mesh(const Comm& comm, const Deck& deck, Overlay overlay, const Wan
 
 // The faces of the mesh that belong to side sets.
 std::vector<SideFace> side_set_faces(const Deck& deck, const Meshed& meshed, const Log& log) {
-  if (deck.gen_sidesets != kSidesetsOff) log.line("building sidesets...");
+  if (deck.gen_sidesets != kSidesetsOff || !deck.sideset.empty() || deck.rve_sets)
+    log.line("building sidesets...");
   return side_faces(meshed.sides, meshed.mesh, meshed.pillows, meshed.parts);
 }
 
@@ -398,6 +458,17 @@ void remove_bad_hexes(const Comm& comm, const Deck& deck, const MaterialTable& m
   for (SideFace& f : faces) f.hex = index[at(f.hex)];
 }
 
+// Makes the regions of the void blocks of their own where the deck asks for it.
+VoidRegions separate_void_blocks(const Comm& comm, const Deck& deck, HexMesh& mesh, MaterialTable& materials,
+                                 const Log& log) {
+  const auto block = void_block(deck, materials);
+  if (!deck.separate_void_blocks || !deck.mesh_void || !block) return {};
+  const std::int64_t id = materials.block_id[at(*block)];
+  const VoidRegions regions = separate_void(comm, mesh, materials, *block);
+  log.line("separate_void_blocks: block {} has {} regions", id, regions.count);
+  return regions;
+}
+
 // Interfaces between blocks of the input mesh stay where they are.
 void hold_block_interfaces(const Comm& comm, const Deck& deck, Overlay& overlay) {
   if (overlay.is_block.empty()) return;
@@ -421,10 +492,11 @@ void add_volumes(const Comm& comm, const HexMesh& hexes, std::vector<double>& vo
 
 // Everything that is told about the mesh in the end; displacement, input volumes and the like are known.
 QualityReport report_of(const Comm& comm, const Deck& deck, const MaterialTable& materials,
-                        const HexMesh& mesh, const std::vector<double>& input_volume,
+                        const HexMesh& mesh, const VoidRegions& regions, std::vector<double> input_volume,
                         const Displacement& displacement) {
   QualityReport report;
   report.summary = summarise(comm, mesh);
+  if (regions.count > 1) share_void_volume(report.summary, regions, input_volume);
   report.kink = measure_kink(comm, mesh);
   report.displacement = displacement;
   report.cell_volume = mesh.cell_size.x * mesh.cell_size.y * mesh.cell_size.z;
@@ -438,6 +510,13 @@ QualityReport report_of(const Comm& comm, const Deck& deck, const MaterialTable&
     report.blocks.push_back(std::move(block));
   }
   return report;
+}
+
+std::vector<std::int64_t> blocks_with_hexes(const QualityReport& report) {
+  std::vector<std::int64_t> ids;
+  for (const auto& block : report.blocks)
+    if (report.of(block).hexes > 0) ids.push_back(block.id);
+  return ids;
 }
 
 // The exit status that require_quality asks for.
@@ -460,9 +539,9 @@ WriteOptions write_options(const Deck& deck, const MaterialTable& materials, con
   w.base = deck.exodus_file;
   w.large = deck.large_exodus;
   w.block_id = materials.block_id;
-  w.periodic_node_sets = periodic_node_sets(deck);
   for (const IdName& n : deck.material_name) w.block_names[n.id] = n.name;
   for (const IdName& n : deck.sideset_name) w.side_set_names[n.id] = n.name;
+  for (const IdName& n : deck.nodeset_name) w.node_set_names[n.id] = n.name;
   if (deck.quality_variable) w.variables.push_back({"scaled_jacobian", scaled_jacobians(mesh)});
   return w;
 }
@@ -498,7 +577,7 @@ void write_grid(const Comm& comm, const Deck& deck, const Overlay& overlay, cons
 }
 
 void check_names(const Deck& deck) {
-  for (const auto* names : {&deck.material_name, &deck.sideset_name})
+  for (const auto* names : {&deck.material_name, &deck.sideset_name, &deck.nodeset_name})
     for (const IdName& n : *names)
       if (n.name.size() > kLongestExodusName)
         throw Error(fmt::format("the name of id {} has {} characters; Exodus files hold at most {}: {}...",
@@ -526,7 +605,8 @@ int run(const Comm& comm, const Deck& deck) {
       comm, deck, overlay.cells, overlay.fractions, overlay.materials, overlay.neighbours, overlay.around,
       input_volume, [&] { return contoured_volumes(comm, deck, overlay); }, log, stages);
   hold_block_interfaces(comm, deck, overlay);
-  const MaterialTable materials = overlay.materials;
+  MaterialTable materials = overlay.materials;
+  for (const std::string& idle : idle_set_options(deck, materials)) log.line("WARNING: {}", idle);
   const Carried carried{overlay.block_names, overlay.sets.side_sets, overlay.sets.node_sets};
   if (exports_grid(deck)) write_grid(comm, deck, overlay, log, stages);
   input_volume.resize(materials.block_id.size(), 0);  // thicken_void may have added the void
@@ -539,18 +619,23 @@ int run(const Comm& comm, const Deck& deck) {
   const Displacement moved = displacement(comm, mesh, meshed.track);
   transform(mesh, scale_of(deck), {deck.xtranslate, deck.ytranslate, deck.ztranslate});
   std::vector<SideFace> faces = side_set_faces(deck, meshed, log);
+  const VoidRegions regions = separate_void_blocks(comm, deck, mesh, materials, log);
   remove_bad_hexes(comm, deck, materials, mesh, faces, log);
-  const QualityReport report = report_of(comm, deck, materials, mesh, input_volume, moved);
+  const QualityReport report = report_of(comm, deck, materials, mesh, regions, input_volume, moved);
   stages.end("check quality");
   if (comm.size() > 1) log.line("generating parallel communication maps...");
   WriteOptions options = write_options(deck, materials, mesh);
   add_carried(options, carried);
-  options.node_sets = std::move(meshed.node_sets);
+  for (const NodeSetMembers& members : meshed.node_sets) options.node_sets.push_back(gathered(mesh, members));
+  options.side_set_names.insert(meshed.sides.names.begin(), meshed.sides.names.end());
+  add_mesh_sets(comm, deck, mesh, meshed.sides.ids, blocks_with_hexes(report), faces, options, log);
   const WriteSummary written = write_mesh(comm, mesh, faces, options);
   if (!quality_file.empty()) write_quality_file(comm, report, deck.exodus_file, quality_file);
   stages.end("write files");
   if (deck.compare_volume) print_volumes(log, report);
   print_mesh_summary(comm, log, deck, written, report);
+  if (deck.compute_ss_stats)
+    print_side_sets(log, side_set_stats(comm, mesh, options.side_sets, faces), options.side_set_names);
   const int status = judge(deck, report.summary, log);
   stages.print(comm, log, written.hexes);
   print_end(comm, log, stages.seconds());

@@ -41,6 +41,11 @@ PartitionMethod partition_method(const Deck& deck) {
   }
 }
 
+bool carries_sets(const Deck& deck) {
+  return deck.gen_sidesets == kSidesetsInputMesh || deck.gen_sidesets == kSidesetsInputMeshAndStl ||
+         deck.gen_sidesets == kSidesetsInputMeshAndFreeSurfaces;
+}
+
 // Whether materials come from shapes or voxels; otherwise from the element variables of the mesh.
 bool has_geometry(const Deck& deck) { return !deck.input_spn.empty() || !deck.diatom_file.empty(); }
 
@@ -76,9 +81,7 @@ class InputMeshOverlay {
   }
 
   // What a Cartesian grid does not have.
-  [[nodiscard]] bool keeps_something() const {
-    return restricted() || keeps_blocks() || deck_.gen_sidesets == kSidesetsInputMesh;
-  }
+  [[nodiscard]] bool keeps_something() const { return restricted() || keeps_blocks() || carries_sets(deck_); }
 
   [[nodiscard]] std::vector<std::int64_t> block_ids() const {
     std::vector<std::int64_t> ids;
@@ -114,8 +117,10 @@ class InputMeshOverlay {
       refuse("capture", "edges and corners are captured on a Cartesian grid only");
     if (deck_.periodic) refuse("periodic", "periodic meshes need a Cartesian grid");
     if (deck_.micro_expand > 0) refuse("micro_expand", "layers can be added to a Cartesian grid only");
-    if (deck_.gen_sidesets == kSidesetsRve)
-      refuse("gen_sidesets", "rve names the six sides of a box; variable names the surfaces of any mesh");
+    if (deck_.gen_sidesets == kSidesetsRve || deck_.gen_sidesets == kSidesetsRveVariable)
+      refuse("gen_sidesets",
+             "rve and rve_variable name the six sides of a box; variable names the surfaces of any mesh");
+    if (deck_.rve_sets) refuse("rve_sets", "it names the sides, edges and corners of a box");
   }
 
   // The mesh is a Cartesian grid.
@@ -210,6 +215,7 @@ class InputMeshOverlay {
     }
     overlay.materials = std::move(materials.table);
     overlay.exact = std::move(materials.exact);
+    overlay.geometry = std::move(materials.geometry);
     overlay.pure = materials.pure;
     if (restricted()) {
       overlay.kept = cells;
@@ -261,7 +267,7 @@ class InputMeshOverlay {
   // Side sets as faces of the local cells, and node sets, of the input mesh. Every rank has all node sets.
   [[nodiscard]] InputSets collect_sets(const HexMesh& cells) const {
     InputSets sets;
-    if (deck_.gen_sidesets != kSidesetsInputMesh) return sets;
+    if (!carries_sets(deck_)) return sets;
     sets.wanted = true;
     struct Entry {
       GlobalId element;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <compare>
+#include <map>
 #include <tuple>
 
 #include "sculpt/deck/deck.hpp"
@@ -13,6 +14,8 @@ namespace {
 constexpr int kTop = 5;  // the face of a buffer hex that lies where the old face was
 constexpr std::int64_t kGridBoundary = 1, kExterior = 2, kInterfaces = 3;  // sets of `fixed`
 
+constexpr std::int64_t kBoxSides = 6, kNoSurface = -1;
+
 // Where a surface is met first.
 struct Place {
   std::int64_t axis, plane;
@@ -23,14 +26,15 @@ struct Place {
 class Planner {
  public:
   Planner(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours, const Interfaces& faces,
-          const Brep& brep, std::span<const std::uint8_t> drop, const std::array<GlobalId, 3>& grid)
+          const Brep& brep, std::span<const std::uint8_t> drop, const SideSetWish& wish)
       : comm_(comm),
         cells_(cells),
         neighbours_(neighbours),
         faces_(faces),
         brep_(brep),
         drop_(drop),
-        grid_(grid) {}
+        wish_(wish),
+        grid_(wish.grid) {}
 
   SidePlan fixed() {
     add_inner(
@@ -41,21 +45,34 @@ class Planner {
   }
 
   SidePlan rve() {
-    for (const BoxFaces::Face& f : box_faces())
-      plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, f.side + 1});
+    add_box_sides();
+    return std::move(plan_);
+  }
+
+  SidePlan rve_variable() {
+    add_surfaces([](bool) { return true; });
+    renumber(kBoxSides);
+    add_box_sides();
+    return std::move(plan_);
+  }
+
+  SidePlan told() {
+    add_inner([&](const InterfaceQuad& q, std::size_t, bool) { return wish_.set_of(q); });
+    std::erase_if(plan_.inner, [](const SidePlan::Item& item) { return item.set == 0; });
+    return std::move(plan_);
+  }
+
+  SidePlan free_surfaces() {
+    add_surfaces([](bool exterior) { return exterior; });
+    if (wish_.kept != nullptr) add_kept();
+    renumber(wish_.after);
     return std::move(plan_);
   }
 
   // Surfaces between cells have the numbers of the brep, those on the box follow, then all get new ones.
   SidePlan variable() {
     const BoxFaces box = trace_box_faces(comm_, cells_, neighbours_, brep_.volume);
-    add_inner([&](const InterfaceQuad& q, std::size_t i, bool) {
-      const std::int64_t surface = brep_.surface[i];
-      // The cell before the plane: on a lattice always the first; elsewhere nothing is before.
-      const bool upward = grid_[0] == 0 || kFaceSign[static_cast<std::size_t>(q.face)] > 0;
-      note(surface, place(q.cell[0], q.face, cells_.hex_id[at(q.cell[upward ? 0 : 1])]));
-      return surface;
-    });
+    add_surfaces([](bool) { return true; });
     for (std::size_t i = 0; i < box.faces.size(); ++i) {
       const BoxFaces::Face& f = box.faces[i];
       if (!meshed_here(f.cell)) continue;
@@ -63,7 +80,7 @@ class Planner {
       note(surface, place(f.cell, f.face, cells_.hex_id[at(f.cell)]));
       add_boundary(f, surface);
     }
-    renumber();
+    renumber(0);
     return std::move(plan_);
   }
 
@@ -76,6 +93,52 @@ class Planner {
 
   [[nodiscard]] bool meshed_here(LocalId cell) const {
     return cells_.layer[at(cell)] == 0 && !drop_[at(cell)];
+  }
+
+  void add_box_sides() {
+    for (const BoxFaces::Face& f : box_faces())
+      plan_.box.push_back({cells_.hex_id[at(f.cell)], f.side, f.side + 1});
+  }
+
+  // The surfaces of the brep that are wanted(whether they are exterior), under the numbers of the brep.
+  template <class Wanted>
+  void add_surfaces(Wanted&& wanted) {
+    add_inner([&](const InterfaceQuad& q, std::size_t i, bool exterior) {
+      const std::int64_t surface = brep_.surface[i];
+      if (!wanted(exterior)) return kNoSurface;
+      // The cell before the plane: on a lattice always the first; elsewhere nothing is before.
+      const bool upward = grid_[0] == 0 || kFaceSign[static_cast<std::size_t>(q.face)] > 0;
+      note(surface, place(q.cell[0], q.face, cells_.hex_id[at(q.cell[upward ? 0 : 1])]));
+      return surface;
+    });
+    std::erase_if(plan_.inner, [](const SidePlan::Item& item) { return item.set == kNoSurface; });
+  }
+
+  // Faces of kept hexes towards cells that are no part of the mesh, one surface per volume and surface of the
+  // exterior.
+  void add_kept() {
+    const HexMesh& kept = *wish_.kept;
+    const BoxFaces box = trace_box_faces(comm_, cells_, neighbours_, brep_.volume);
+    std::map<std::array<GlobalId, 4>, std::int64_t> surface_at;  // by the nodes of the face
+    for (std::size_t i = 0; i < box.faces.size(); ++i) {
+      const BoxFaces::Face& f = box.faces[i];
+      if (drop_[at(f.cell)] && towards_kept(f.cell, f.face))
+        surface_at[node_ids(cells_, f.cell, f.face)] = brep_.surfaces + box.surface[i];
+    }
+    for (LocalId h = 0; h < kept.size(); ++h)
+      for (int f = 0; f < 6 && kept.layer[at(h)] == 0; ++f) {
+        const auto found = surface_at.find(node_ids(kept, h, f));
+        if (found == surface_at.end()) continue;
+        note(found->second, {kept.hex_id[at(h)], f, 0});
+        plan_.inner.push_back({kept.hex_id[at(h)], f, found->second});
+      }
+  }
+  static std::array<GlobalId, 4> node_ids(const HexMesh& mesh, LocalId hex, int face) {
+    std::array<GlobalId, 4> ids{};
+    const auto nodes = face_nodes(mesh, {hex, face});
+    std::transform(nodes.begin(), nodes.end(), ids.begin(), [&](LocalId n) { return mesh.node_id[at(n)]; });
+    std::sort(ids.begin(), ids.end());
+    return ids;
   }
 
   // A face on the boundary: of a box it is told by the side, of an exterior by the face itself.
@@ -137,8 +200,8 @@ class Planner {
 
   void note(std::int64_t surface, const Place& where) { firsts_.push_back({surface, where}); }
 
-  // Ids 1.. in the order of the first places of the surfaces.
-  void renumber() {
+  // Ids after `last` in the order of the first places of the surfaces.
+  void renumber(std::int64_t last) {
     keep_least();
     firsts_ = comm_.concatenate(firsts_);
     keep_least();
@@ -147,7 +210,7 @@ class Planner {
     std::vector<std::int64_t> id(static_cast<std::size_t>(firsts_.empty() ? 0 : firsts_.back().surface + 1),
                                  0);
     for (std::size_t i = 0; i < order.size(); ++i)
-      id[static_cast<std::size_t>(order[i].surface)] = static_cast<std::int64_t>(i) + 1;
+      id[static_cast<std::size_t>(order[i].surface)] = last + static_cast<std::int64_t>(i) + 1;
     for (auto* items : {&plan_.inner, &plan_.box})
       for (SidePlan::Item& item : *items) item.set = id[static_cast<std::size_t>(item.set)];
   }
@@ -164,6 +227,7 @@ class Planner {
   const Interfaces& faces_;
   const Brep& brep_;
   std::span<const std::uint8_t> drop_;
+  const SideSetWish& wish_;
   std::array<GlobalId, 3> grid_;
   SidePlan plan_;
   std::vector<First> firsts_;
@@ -298,12 +362,12 @@ class Finder {
   std::vector<SideFace> out_;
 };
 
-}  // namespace
+void sort_once(std::vector<std::int64_t>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
 
-SidePlan plan_side_sets(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
-                        const Interfaces& faces, const Brep& brep, std::span<const std::uint8_t> drop,
-                        const std::array<GlobalId, 3>& grid, int gen_sidesets) {
-  Planner planner(comm, cells, neighbours, faces, brep, drop, grid);
+SidePlan planned(Planner& planner, int gen_sidesets) {
   switch (gen_sidesets) {
     case kSidesetsFixed:
       return planner.fixed();
@@ -311,9 +375,33 @@ SidePlan plan_side_sets(const Comm& comm, const HexMesh& cells, const FaceNeighb
       return planner.variable();
     case kSidesetsRve:
       return planner.rve();
+    case kSidesetsRveVariable:
+      return planner.rve_variable();
+    case kSidesetsGeometricSurfaces:
+    case kSidesetsGeometricSidesets:
+    case kSidesetsInputMeshAndStl:
+      return planner.told();
+    case kSidesetsInputMeshAndFreeSurfaces:
+      return planner.free_surfaces();
     default:
       return {};
   }
+}
+
+}  // namespace
+
+SidePlan plan_side_sets(const Comm& comm, const HexMesh& cells, const FaceNeighbours& neighbours,
+                        const Interfaces& faces, const Brep& brep, std::span<const std::uint8_t> drop,
+                        const SideSetWish& wish) {
+  Planner planner(comm, cells, neighbours, faces, brep, drop, wish);
+  SidePlan plan = planned(planner, wish.gen_sidesets);
+  std::vector<std::int64_t> mine;
+  for (const auto* items : {&plan.inner, &plan.box})
+    for (const SidePlan::Item& item : *items) mine.push_back(item.set);
+  sort_once(mine);
+  plan.ids = comm.concatenate(mine);
+  sort_once(plan.ids);
+  return plan;
 }
 
 void share_exterior_faces(const HexMesh& cells, SidePlan& plan) {

@@ -145,54 +145,21 @@ class RankPart {
     }
   }
 
-  // A node is on a periodic side when hexes on both sides of it use the node.
   void add_node_sets() {
-    for (std::size_t d = 0; d < 3; ++d)
-      for (const int side : {0, 1}) {
-        RankMesh::NodeSet set;
-        set.id = options_.periodic_node_sets[d][static_cast<std::size_t>(side)];
-        if (set.id == 0) continue;
-        Image beyond{0, 0, 0};
-        beyond[d] = side == 0 ? -1 : 1;
-        std::vector<std::uint8_t> on_side(mesh_.position.size(), 0);
-        for (LocalId h = 0; h < mesh_.size(); ++h)
-          if (mesh_.image_of(h) == beyond)
-            for (const LocalId n : mesh_.hexes[at(h)]) on_side[at(n)] = file_node_[at(n)] != kNone;
-        std::vector<GlobalId> keys;
-        for (LocalId n = 0; n < mesh_.nodes(); ++n) {
-          if (!on_side[at(n)]) continue;
-          keys.push_back(mesh_.node_id[at(n)]);
-          set.node.push_back(file_node_[at(n)]);
-        }
-        (void)dense_numbers(comm_, keys, set.global_count);
-        out_.node_sets.push_back(std::move(set));
+    for (const NodeSet& nodes : options_.node_sets) {
+      RankMesh::NodeSet set;
+      set.id = nodes.id;
+      if (const auto name = options_.node_set_names.find(set.id); name != options_.node_set_names.end())
+        set.name = name->second;
+      std::vector<GlobalId> keys;
+      for (const LocalId n : nodes.node) {
+        if (file_node_[at(n)] == kNone) continue;
+        keys.push_back(mesh_.node_id[at(n)]);
+        set.node.push_back(file_node_[at(n)]);
       }
-    for (const NodeSetMembers& members : options_.node_sets) add_node_set(members);
-  }
-  // Every rank lists the nodes of its file, whichever rank knows that they belong to the set.
-  void add_node_set(const NodeSetMembers& members) {
-    std::vector<std::uint8_t> in_set(mesh_.position.size(), 0);
-    for (const GlobalId id : members.node) {
-      const auto found = std::lower_bound(mesh_.node_id.begin(), mesh_.node_id.end(), id);
-      if (found != mesh_.node_id.end() && *found == id)
-        in_set[static_cast<std::size_t>(found - mesh_.node_id.begin())] = 1;
+      (void)dense_numbers(comm_, keys, set.global_count);
+      out_.node_sets.push_back(std::move(set));
     }
-    mesh_.node_exchange.reduce_to_owners(std::span<std::uint8_t>(in_set), [](std::uint8_t a, std::uint8_t b) {
-      return static_cast<std::uint8_t>(a | b);
-    });
-    mesh_.node_exchange.copy_to_ghosts(in_set);
-    RankMesh::NodeSet set;
-    set.id = members.id;
-    if (const auto name = options_.node_set_names.find(set.id); name != options_.node_set_names.end())
-      set.name = name->second;
-    std::vector<GlobalId> keys;
-    for (LocalId n = 0; n < mesh_.nodes(); ++n) {
-      if (!in_set[at(n)] || file_node_[at(n)] == kNone) continue;
-      keys.push_back(mesh_.node_id[at(n)]);
-      set.node.push_back(file_node_[at(n)]);
-    }
-    (void)dense_numbers(comm_, keys, set.global_count);
-    out_.node_sets.push_back(std::move(set));
   }
 
   // Position of each local hex in the file, from 1.

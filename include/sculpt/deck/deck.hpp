@@ -254,6 +254,7 @@ struct Deck {
   std::vector<IdName> material_name, sideset_name, nodeset_name;
   std::vector<IdBox> sideset, nodeset;
   int gen_sidesets = kSidesetsOff;
+  bool rve_sets = false;                     // ours
   std::int64_t free_surface_sideset = 0;     // 0: none
   std::vector<std::int64_t> match_sidesets;  // pairs, one after the other
   std::int64_t match_sidesets_nodeset = 0;   // 0: none

@@ -66,6 +66,19 @@ struct MaterialData {
 // surface is near. Empty where the input is data and not shapes.
 using ExactSurface = std::function<std::optional<Vec3>(const Vec3& p, std::int32_t a, std::int32_t b)>;
 
+// The surfaces that the geometry itself is made of, the same on every rank; none where the input is data. A
+// part is what the input gives a name: a package of shapes, a solid of an STL file. Names are not empty;
+// those of surfaces are all different, and so are those of parts.
+struct GeometrySurfaces {
+  std::vector<std::string> surface_name, part_name;
+  std::vector<std::int32_t> part_of_surface;  // per surface: index into part_name
+  // Local. The surface that the interface between materials a and b (dense indices, -1: not known) near p
+  // lies on; nothing when none is near. Depends on p, a and b only. Stays usable when the source is gone.
+  std::function<std::optional<std::int32_t>(const Vec3& p, std::int32_t a, std::int32_t b)> nearest;
+
+  [[nodiscard]] bool empty() const { return surface_name.empty(); }
+};
+
 // The materials of this rank's part of space, for boxes of any size and place: cells finer or coarser than
 // those that were read. Local. A box has a volume. What is said of it depends on the box and the input only,
 // not on the rank's part. Calls may use scratch storage of the field: one thread at a time. Stays usable when
@@ -122,6 +135,7 @@ class MaterialSource {
   [[nodiscard]] virtual ExactSurface exact_surface() const { return {}; }
   // The smooth surfaces, curves and corners of faceted input; null where there are no facets.
   [[nodiscard]] virtual std::shared_ptr<const GeometryFeatures> features() const { return nullptr; }
+  [[nodiscard]] virtual GeometrySurfaces geometry_surfaces() const { return {}; }
 };
 
 // The voxels of a grid that the hexes of data need, of all hexes within a box; empty when they lie outside.

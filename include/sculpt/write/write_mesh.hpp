@@ -24,10 +24,10 @@ struct HexVariable {
   std::vector<double> value;  // per local hex
 };
 
-// The nodes of a set that this rank knows of; any rank may know of a node.
-struct NodeSetMembers {
+// The nodes of a set.
+struct NodeSet {
   std::int64_t id;
-  std::vector<GlobalId> node;  // ids in the mesh; those that it does not have do not count
+  std::vector<LocalId> node;  // ascending, all that hexes of this rank use; others do not count
 };
 
 struct WriteOptions {
@@ -36,12 +36,8 @@ struct WriteOptions {
   std::vector<std::int64_t> block_id;  // of each dense material index
   std::map<std::int64_t, std::string> block_names, side_set_names, node_set_names;
   std::vector<std::int64_t> side_sets;  // ids of those that appear even without a face
-  std::vector<NodeSetMembers> node_sets;
+  std::vector<NodeSet> node_sets;
   std::vector<HexVariable> variables;
-  // Of a periodic mesh, per axis: ids of the node sets of its low and its high side; 0 = none. A set holds
-  // the nodes that have a partner on the other side, in ascending global id, which is the same order on both
-  // sides: in a file that holds all nodes the i-th ones are partners.
-  std::array<std::array<std::int64_t, 2>, 3> periodic_node_sets{};
 };
 
 struct WriteSummary {

@@ -174,7 +174,7 @@ std::vector<Listed> side_sets(const Comm& comm, const Case& input, const LayerPl
   std::vector<std::uint8_t> drop(t.cells.hexes.size(), 0);
   for (std::size_t c = 0; c < drop.size(); ++c) drop[c] = t.cells.material[c] == left_out;
   const SidePlan plan =
-      plan_side_sets(comm, t.cells, t.neighbours, t.faces, t.brep, drop, input.grid.cells, gen_sidesets);
+      plan_side_sets(comm, t.cells, t.neighbours, t.faces, t.brep, drop, {gen_sidesets, input.grid.cells});
   LayeredMesh layered = add_layers(comm, t.cells, t.neighbours, drop, t.faces,
                                    deviation_weights(t.cells, t.faces), layers, Log());
   if (layers.curves) add_curve_layers(comm, layered, layers, {}, Log());
@@ -199,7 +199,7 @@ TEST(SideSets, AreTheSameAloneAndTogether) {
   curves.curve_layers = all.curve_layers = 1;
   boundary.boundary_layers = all.boundary_layers = 1;
   for (const LayerPlan& layers : {none, surfaces, curves, boundary, all})
-    for (const int gen_sidesets : {kSidesetsFixed, kSidesetsVariable, kSidesetsRve})
+    for (const int gen_sidesets : {kSidesetsFixed, kSidesetsVariable, kSidesetsRve, kSidesetsRveVariable, kSidesetsInputMeshAndFreeSurfaces})
       for (const std::int32_t left_out : {-1, 0}) {
         SCOPED_TRACE("ghost layers " + std::to_string(layers.ghost_layers()) + ", gen_sidesets " +
                      std::to_string(gen_sidesets));

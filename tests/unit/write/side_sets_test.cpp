@@ -49,7 +49,7 @@ Made made(const Case& input, Hexes kind, int gen_sidesets, std::int32_t left_out
   std::vector<std::uint8_t> drop(cells.hexes.size(), 0);
   for (std::size_t c = 0; c < drop.size(); ++c) drop[c] = cells.material[c] == left_out;
   const SidePlan plan = plan_side_sets(comm, cells, neighbours, faces, brep, drop,
-                                       is_lattice ? input.grid.cells : Index3{0, 0, 0}, gen_sidesets);
+                                       {gen_sidesets, is_lattice ? input.grid.cells : Index3{0, 0, 0}});
   if (kind == Hexes::kStair) {
     const std::vector<std::int32_t> none(cells.hexes.size(), -1);
     HexMesh mesh = pillow(comm, cells, neighbours, none, drop, {}).mesh;

@@ -170,6 +170,7 @@ constexpr OptionSpec kInputOptions[] = {
      .slot = &Deck::stl_file,
      .help = "Geometry from one STL file",
      .about = "One STL file is one material, id 1. Several STL files go into a diatom file.",
+     .supported = true,
      .unset = "none",
      .argument = "file name"},
     {.name = "diatom_file",

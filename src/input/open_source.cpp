@@ -4,6 +4,7 @@
 #include "input/diatom.hpp"
 #include "input/micro.hpp"
 #include "input/spn.hpp"
+#include "input/stl.hpp"
 #include "sculpt/input/material_source.hpp"
 
 namespace sculpt {
@@ -30,7 +31,7 @@ constexpr std::array<Format, 7> kFormats{{
     {"input_micro", &Deck::input_micro, on_its_grid<open_micro>},
     {"diatom_file", &Deck::diatom_file, open_diatom},
     {"input_cart_exo", &Deck::input_cart_exo, on_its_grid<open_cart_exo>},
-    {"stl_file", &Deck::stl_file, nullptr},
+    {"stl_file", &Deck::stl_file, open_stl},
     {"input_vfrac", &Deck::input_vfrac, nullptr},
     {"input_stitch", &Deck::input_stitch, nullptr},
 }};
@@ -51,7 +52,8 @@ std::unique_ptr<MaterialSource> open_source(const Comm& comm, const Deck& deck, 
     }
     if (chosen == nullptr)
       throw Error(
-          "no source of materials: expected one of input_spn, input_micro, diatom_file and input_cart_exo");
+          "no source of materials: expected one of input_spn, input_micro, diatom_file, stl_file and "
+          "input_cart_exo");
   });
   return chosen->open(comm, deck, log, overlay);
 }

@@ -1,0 +1,63 @@
+#pragma once
+// An octree over the facets of a surface. Leaves list the facets that reach them; leaves that none reaches
+// know the winding number there. Immutable.
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "facets/crossing.hpp"
+#include "sculpt/facets/facet_mesh.hpp"
+#include "sculpt/geom/shape.hpp"
+
+namespace sculpt {
+
+class FacetTree {
+ public:
+  // Of a mesh that is not empty.
+  explicit FacetTree(const FacetMesh& mesh);
+
+  [[nodiscard]] const Box& bounds() const { return bounds_; }  // of the surface
+  [[nodiscard]] const Box& cube() const { return cube_; }      // the bounds and more
+  [[nodiscard]] Triangle facet(LocalId f) const {
+    const auto& corner = triangles_[at(f)];
+    return {vertices_[at(corner[0])], vertices_[at(corner[1])], vertices_[at(corner[2])]};
+  }
+  // Whether a facet reaches the inside of the box.
+  [[nodiscard]] bool is_reached(const Box& box) const { return is_reached(0, cube_, box); }
+  // Replaces `found` by the facets that reach the inside of the box, ascending.
+  void find(const Box& box, std::vector<LocalId>& found) const;
+  // How often the surface goes round the point: what lines along the axes say, most of them where they
+  // disagree.
+  [[nodiscard]] int winding(const Vec3& p) const;
+  // The nearest point of the surface; of several the first by x, y and z.
+  [[nodiscard]] Vec3 nearest(const Vec3& p) const;
+
+ private:
+  struct Node {
+    LocalId first = 0;         // of eight children, the low ones first, x fastest; or the place of the list
+    std::int32_t count = 0;    // of facets in the list; kInner: the node has children
+    std::int32_t winding = 0;  // where there is no facet
+  };
+  struct Nearest {
+    Vec3 point;
+    double square;  // of the distance
+  };
+  static constexpr std::int32_t kInner = -1;
+
+  void divide(std::size_t node, const Box& box, std::vector<LocalId>& facets, int depth);
+  void wind(std::size_t node, const Box& box);
+  [[nodiscard]] bool is_reached(std::size_t node, const Box& of_node, const Box& box) const;
+  void find(std::size_t node, const Box& of_node, const Box& box, std::vector<LocalId>& found) const;
+  [[nodiscard]] int winding_by_lines(const Vec3& p) const;
+  [[nodiscard]] int ahead(std::size_t node, const Box& box, std::size_t axis, const Vec3& p,
+                          bool forward) const;
+  void nearest(std::size_t node, const Box& box, const Vec3& p, Nearest& best) const;
+
+  std::vector<Vec3> vertices_;
+  std::vector<std::array<LocalId, 3>> triangles_;
+  std::vector<Node> nodes_;
+  std::vector<LocalId> listed_;
+  Box bounds_, cube_;
+};
+
+}  // namespace sculpt

@@ -1,0 +1,125 @@
+#include "input/shape_source.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "input/shape_fractions.hpp"
+#include "input/shape_surfaces.hpp"
+
+namespace sculpt {
+namespace {
+
+class ShapeSource final : public MaterialSource {
+ public:
+  ShapeSource(const Deck& deck, std::vector<MaterialShape> shapes, Grid grid, const Log& log)
+      : grid_(std::move(grid)), log_(log) {
+    for (const MaterialShape& shape : shapes) table_.block_id.push_back(shape.material);
+    std::sort(table_.block_id.begin(), table_.block_id.end());
+    table_.block_id.erase(std::unique(table_.block_id.begin(), table_.block_id.end()), table_.block_id.end());
+    add_void(deck);
+    name_surfaces(shapes);
+    auto inserted = std::make_shared<std::vector<InsertedShape>>();
+    for (MaterialShape& shape : shapes) inserted->push_back({std::move(shape.shape), dense(shape.material)});
+    shapes_ = std::move(inserted);
+  }
+
+  [[nodiscard]] const Grid& grid() const override { return grid_; }
+
+  [[nodiscard]] MaterialData read(const Comm& comm, std::span<const IndexBox> wanted) override {
+    log_.line("inserting volume fractions...");
+    MaterialData data;
+    data.table = table_;
+    collectively(comm, "inserting volume fractions", [&] {
+      const auto field = shape_field(shapes_, grid_, outside_);
+      data.fractions = measure_cells(grid_, wanted[static_cast<std::size_t>(comm.rank())], *field);
+    });
+    return data;
+  }
+
+  [[nodiscard]] bool is_data() const override { return false; }
+
+  [[nodiscard]] std::unique_ptr<MaterialField> field(Fractions, const IndexBox&) const override {
+    return shape_field(shapes_, grid_, outside_);
+  }
+
+  [[nodiscard]] std::unique_ptr<HexField> hex_field(Fractions, const IndexBox&, std::int32_t) const override {
+    return shape_hex_field(shapes_, grid_, outside_);
+  }
+
+  [[nodiscard]] ExactSurface exact_surface() const override { return surfaces_of(shapes_, grid_); }
+
+  [[nodiscard]] GeometrySurfaces geometry_surfaces() const override {
+    GeometrySurfaces surfaces = surfaces_;
+    surfaces.nearest = nearest_shape_of(shapes_, grid_);
+    return surfaces;
+  }
+
+ private:
+  [[nodiscard]] std::int32_t dense(std::int64_t id) const {
+    const auto at = std::lower_bound(table_.block_id.begin(), table_.block_id.end(), id);
+    return static_cast<std::int32_t>(at - table_.block_id.begin());
+  }
+
+  // Every shape is a surface, packages of one name are one part.
+  void name_surfaces(const std::vector<MaterialShape>& shapes) {
+    std::map<std::string, std::int32_t> part;
+    std::vector<std::int64_t> members;
+    for (const MaterialShape& shape : shapes) {
+      const auto [found, is_new] =
+          part.try_emplace(shape.package, static_cast<std::int32_t>(surfaces_.part_name.size()));
+      if (is_new) {
+        surfaces_.part_name.push_back(shape.package);
+        members.push_back(0);
+      }
+      surfaces_.part_of_surface.push_back(found->second);
+      surfaces_.surface_name.push_back(fmt::format("{} {}", shape.package, ++members[at(found->second)]));
+    }
+  }
+
+  // A meshed void may join a material of the user's. A void that is not meshed stays apart: void_mat names
+  // the block of the meshed void only.
+  void add_void(const Deck& deck) {
+    std::vector<std::int64_t>& ids = table_.block_id;
+    std::int64_t id = deck.given("void_mat") ? deck.void_mat : ids.back() + 1;
+    const bool taken = std::binary_search(ids.begin(), ids.end(), id);
+    if (taken && !deck.mesh_void) id = ids.back() + 1;
+    if (!taken || !deck.mesh_void) {
+      ids.insert(std::lower_bound(ids.begin(), ids.end(), id), id);
+      table_.void_material = dense(id);
+    }
+    outside_ = dense(id);
+  }
+
+  Grid grid_;
+  Log log_;
+  MaterialTable table_;
+  std::shared_ptr<const std::vector<InsertedShape>> shapes_;
+  GeometrySurfaces surfaces_;  // without nearest
+  std::int32_t outside_ = 0;   // dense index of what no shape covers
+};
+
+}  // namespace
+
+// A grid to find shapes by: cubes, about eight per shape.
+Grid grid_over(const Box& overlay, std::size_t shapes) {
+  constexpr double kCellsPerShape = 8, kMostPerAxis = 1024;
+  const Vec3 size = overlay.hi - overlay.lo;
+  const double width = std::cbrt(size.x * size.y * size.z /
+                                 (kCellsPerShape * static_cast<double>(std::max<std::size_t>(shapes, 1))));
+  Index3 cells{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    check(size[d] > 0, "the bounds of an overlay mesh are no box");
+    cells[d] = static_cast<std::int64_t>(std::clamp(std::ceil(size[d] / width), 1.0, kMostPerAxis));
+  }
+  return box_grid(cells, overlay.lo, overlay.hi);
+}
+
+std::unique_ptr<MaterialSource> shape_source(const Deck& deck, std::vector<MaterialShape> shapes, Grid grid,
+                                             const Log& log) {
+  return std::make_unique<ShapeSource>(deck, std::move(shapes), std::move(grid), log);
+}
+
+}  // namespace sculpt

@@ -1,0 +1,25 @@
+#pragma once
+// Materials given by shapes, sampled where they are asked for. What no shape covers is the void.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sculpt/input/material_source.hpp"
+
+namespace sculpt {
+
+struct MaterialShape {
+  std::unique_ptr<Shape> shape;
+  std::int64_t material = 0;  // the user's id, >= 1
+  std::string package;        // of a diatom file; of one without a name: package_<place in the file, from 1>
+};
+
+// Local. The shapes, at least one, are in the order of insertion, the same on all ranks.
+[[nodiscard]] std::unique_ptr<MaterialSource> shape_source(const Deck& deck,
+                                                           std::vector<MaterialShape> shapes, Grid grid,
+                                                           const Log& log);
+
+// A grid to find shapes by within the bounds of an overlay mesh: cubes, about eight per shape.
+[[nodiscard]] Grid grid_over(const Box& overlay, std::size_t shapes);
+
+}  // namespace sculpt

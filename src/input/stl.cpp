@@ -1,0 +1,122 @@
+#include "input/stl.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "input/deck_grid.hpp"
+#include "input/shape_source.hpp"
+#include "input/text_file.hpp"
+#include "sculpt/facets/faceted_solid.hpp"
+
+namespace sculpt {
+namespace {
+
+constexpr std::size_t kMostNamed = 20;  // files in a message
+
+void refuse_missing(const std::vector<StlFile>& files) {
+  std::string names;
+  std::size_t missing = 0;
+  const StlFile* first = nullptr;
+  for (const StlFile& file : files) {
+    if (::access(file.path.c_str(), R_OK) == 0) continue;
+    if (first == nullptr) first = &file;
+    if (missing++ < kMostNamed) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", file.path);
+  }
+  if (missing == 0) return;
+  if (missing > kMostNamed) names += fmt::format(" and {} more", missing - kMostNamed);
+  if (missing == 1) throw Error(fmt::format("{}: cannot open {}: no such file", first->named_by, names));
+  throw Error(
+      fmt::format("{}: cannot open {} of {} STL files: {}", first->named_by, missing, files.size(), names));
+}
+
+FacetMesh read_facets(const StlFile& file) {
+  std::error_code error;
+  if (std::filesystem::file_size(file.path, error) == 0 && !error) return {};
+  const TextFile text_file(file.path, file.named_by);
+  std::string text(static_cast<std::size_t>(text_file.size()), '\0');
+  text_file.read(0, text);
+  return parse_stl(text, file.path);
+}
+
+void warn(const Log& log, const std::string& path, const Defects& defects, const char* what) {
+  if (defects.count == 0) return;
+  const std::string facet = defects.facet > 0 ? fmt::format("facet {} ", defects.facet) : "";
+  log.line("WARNING: {}: {} {}; the first: {}at ({:g}, {:g}, {:g})", path, defects.count, what, facet,
+           defects.place.x, defects.place.y, defects.place.z);
+}
+
+void report(const Log& log, const std::string& path, const FacetMesh& mesh, const FacetReport& found) {
+  const Box box = bounds_of(mesh);
+  const FacetSizes sizes = sizes_of(mesh);
+  log.line("STL summary: fn={} vertices={} Triangles={}", path, 3 * mesh.triangles.size(),
+           mesh.triangles.size());
+  log.line("  Distinct vertices    {}", mesh.vertices.size());
+  log.line("  Components           {}", found.components);
+  log.line("  Bounding Box Min     {:f} {:f} {:f}", box.lo.x, box.lo.y, box.lo.z);
+  log.line("  Bounding Box Max     {:f} {:f} {:f}", box.hi.x, box.hi.y, box.hi.z);
+  log.line("  Side Length Min Max  {:g} {:g}", sizes.side_min, sizes.side_max);
+  log.line("  Angle Min Max        {:g} {:g}", sizes.angle_min, sizes.angle_max);
+  log.line("  Area Min Max         {:g} {:g}", sizes.area_min, sizes.area_max);
+  log.line("  Enclosed Volume      {:g}", sizes.volume);
+  warn(log, path, found.degenerate, "degenerate facets dropped");
+  warn(log, path, found.duplicate, "duplicate facets dropped");
+  warn(log, path, found.welded, "vertices welded to one close by");
+  warn(log, path, found.flipped, "facets flipped, so that all normals point outwards");
+  warn(log, path, found.open, "open edges: the surface has holes, cells there may get wrong materials");
+  warn(log, path, found.non_manifold, "edges of more than two facets");
+  warn(log, path, found.inconsistent, "edges whose facets cannot be oriented alike");
+  if (found.open.count + found.non_manifold.count + found.inconsistent.count == 0)
+    log.line(" Diatom STL All Sides Properly matched");
+}
+
+// On rank 0: the surface of a file, repaired.
+FacetMesh repaired(const StlFile& file, const Log& log) {
+  FacetMesh mesh = read_facets(file);
+  const FacetReport found = repair(mesh);
+  if (mesh.triangles.empty())
+    log.line("WARNING: {}: '{}' has no facets and fills nothing", file.named_by, file.path);
+  else
+    report(log, file.path, mesh, found);
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<Shape>> open_solids(const Comm& comm, const std::vector<StlFile>& files,
+                                                const Log& log) {
+  collectively(comm, "looking for STL files", [&] {
+    if (comm.rank() == 0) refuse_missing(files);
+  });
+  std::vector<std::unique_ptr<Shape>> solids;
+  for (const StlFile& file : files) {
+    FacetMesh mesh;
+    collectively(comm, "reading " + file.path, [&] {
+      if (comm.rank() == 0) mesh = repaired(file, log);
+    });
+    comm.broadcast(mesh.vertices, 0);
+    comm.broadcast(mesh.triangles, 0);
+    collectively(comm, "indexing the facets of " + file.path, [&] {
+      solids.push_back(mesh.triangles.empty() ? nullptr : std::make_unique<FacetedSolid>(mesh));
+    });
+  }
+  return solids;
+}
+
+std::unique_ptr<MaterialSource> open_stl(const Comm& comm, const Deck& deck, const Log& log,
+                                         const std::optional<Box>& overlay) {
+  log.line("initializing geometry...");
+  Grid grid;
+  collectively(comm, "opening " + deck.stl_file,
+               [&] { grid = overlay ? grid_over(*overlay, 1) : deck_box_grid(deck, "stl_file"); });
+  std::vector<std::unique_ptr<Shape>> solids = open_solids(comm, {{deck.stl_file, "stl_file"}}, log);
+  if (solids[0] == nullptr)
+    throw AgreedError(fmt::format("stl_file: '{}' has no facets, expected a closed surface of at least four",
+                                  deck.stl_file));
+  std::vector<MaterialShape> shapes;
+  shapes.push_back({std::move(solids[0]), 1, "stl"});
+  return shape_source(deck, std::move(shapes), std::move(grid), log);
+}
+
+}  // namespace sculpt

@@ -1,0 +1,27 @@
+#pragma once
+// Solids of STL files, and `stl_file`: one of them as material 1.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sculpt/input/material_source.hpp"
+
+namespace sculpt {
+
+// A file that is to be read, and what names it, for messages: "stl_file" or "deck.diatom, line 7".
+struct StlFile {
+  std::string path, named_by;
+};
+
+// Collective. The solids of the files, the same on all ranks; null where a file holds no facets, which is
+// told by a warning. Rank 0 reads, repairs and reports. Files that cannot be opened are named together.
+// Throws AgreedError.
+[[nodiscard]] std::vector<std::unique_ptr<Shape>> open_solids(const Comm& comm,
+                                                              const std::vector<StlFile>& files,
+                                                              const Log& log);
+
+// Collective. Throws AgreedError.
+[[nodiscard]] std::unique_ptr<MaterialSource> open_stl(const Comm& comm, const Deck& deck, const Log& log,
+                                                       const std::optional<Box>& overlay);
+
+}  // namespace sculpt

@@ -4,83 +4,74 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace sculpt {
 namespace {
 
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-// Smallest member of each set of facets.
+// Sets of facets, each told by its smallest member.
 class FacetSets {
  public:
   explicit FacetSets(std::size_t facets) : first_(facets) { std::iota(first_.begin(), first_.end(), 0); }
-  std::int32_t find(std::int32_t f) {
-    while (first_[index(f)] != f) f = first_[index(f)] = first_[index(first_[index(f)])];
+  LocalId find(LocalId f) {
+    while (first_[at(f)] != f) f = first_[at(f)] = first_[at(first_[at(f)])];
     return f;
   }
-  void join(std::int32_t a, std::int32_t b) {
-    const auto [least, other] = std::minmax(find(a), find(b));
-    first_[index(other)] = least;
+  void join(LocalId a, LocalId b) {
+    const auto [least, other] = std::minmax({find(a), find(b)});
+    first_[at(other)] = least;
   }
 
  private:
-  std::vector<std::int32_t> first_;
+  std::vector<LocalId> first_;
 };
 
-struct FacetEdge {
-  std::int32_t a, b, facet;
-  auto operator<=>(const FacetEdge&) const = default;
-};
+Vec3 normal_of(const FacetMesh& mesh, std::size_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  return unit(
+      cross(mesh.vertices[at(b)] - mesh.vertices[at(a)], mesh.vertices[at(c)] - mesh.vertices[at(a)]));
+}
 
-// Every edge of every facet, those of one place next to each other.
-std::vector<FacetEdge> edges_of(std::span<const std::array<std::int32_t, 3>> facet) {
-  std::vector<FacetEdge> edges;
-  edges.reserve(3 * facet.size());
-  for (std::size_t f = 0; f < facet.size(); ++f)
-    for (std::size_t v = 0; v < 3; ++v) {
-      const auto [a, b] = std::minmax(facet[f][v], facet[f][(v + 1) % 3]);
-      edges.push_back({a, b, static_cast<std::int32_t>(f)});
+void find_surfaces(FacetMesh& mesh, double angle) {
+  const double least_cosine = std::cos(angle * std::numbers::pi / 180);
+  const FacetNeighbours neighbours = facet_neighbours(mesh);
+  std::vector<Vec3> normal(mesh.triangles.size());
+  for (std::size_t t = 0; t < normal.size(); ++t) normal[t] = normal_of(mesh, t);
+  FacetSets sets(mesh.triangles.size());
+  for (std::size_t t = 0; t < normal.size(); ++t)
+    for (const LocalId other : neighbours[t]) {
+      const auto& back = neighbours[at(other)];
+      const bool just_two = std::find(back.begin(), back.end(), static_cast<LocalId>(t)) != back.end();
+      if (just_two && dot(normal[t], normal[at(other)]) >= least_cosine)
+        sets.join(static_cast<LocalId>(t), other);
     }
-  std::sort(edges.begin(), edges.end());
-  return edges;
+  mesh.surface.resize(mesh.triangles.size());
+  mesh.surfaces = 0;
+  for (std::size_t t = 0; t < mesh.surface.size(); ++t) {
+    const LocalId first = sets.find(static_cast<LocalId>(t));
+    mesh.surface[t] = at(first) == t ? mesh.surfaces++ : mesh.surface[at(first)];
+  }
+}
+
+void find_corners(FacetMesh& mesh) {
+  std::vector<std::pair<LocalId, std::int32_t>> meeting;  // vertex, surface
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const LocalId v : mesh.triangles[t]) meeting.emplace_back(v, mesh.surface[t]);
+  std::sort(meeting.begin(), meeting.end());
+  meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
+  mesh.corner.assign(mesh.vertices.size(), -1);
+  mesh.corners = 0;
+  for (std::size_t m = 2; m < meeting.size(); ++m) {
+    std::int32_t& corner = mesh.corner[at(meeting[m].first)];
+    if (meeting[m - 2].first == meeting[m].first && corner < 0) corner = mesh.corners++;
+  }
 }
 
 }  // namespace
 
-FacetSurfaces divide_facets(std::span<const Vec3> vertex, std::span<const std::array<std::int32_t, 3>> facet,
-                            double angle) {
-  const double least_cosine = std::cos(angle * std::numbers::pi / 180);
-  const auto normal = [&](std::int32_t f) {
-    const auto& [a, b, c] = facet[index(f)];
-    return unit(cross(vertex[index(b)] - vertex[index(a)], vertex[index(c)] - vertex[index(a)]));
-  };
-  FacetSets sets(facet.size());
-  const std::vector<FacetEdge> edges = edges_of(facet);
-  for (std::size_t e = 0; e < edges.size();) {
-    std::size_t last = e;
-    while (last < edges.size() && edges[last].a == edges[e].a && edges[last].b == edges[e].b) ++last;
-    if (last - e == 2 && dot(normal(edges[e].facet), normal(edges[e + 1].facet)) >= least_cosine)
-      sets.join(edges[e].facet, edges[e + 1].facet);
-    e = last;
-  }
-
-  FacetSurfaces out;
-  out.surface.resize(facet.size());
-  for (std::size_t f = 0; f < facet.size(); ++f) {
-    const std::int32_t first = sets.find(static_cast<std::int32_t>(f));
-    out.surface[f] = first == static_cast<std::int32_t>(f) ? out.surfaces++ : out.surface[index(first)];
-  }
-  std::vector<std::pair<std::int32_t, std::int32_t>> meeting;  // vertex, surface
-  for (std::size_t f = 0; f < facet.size(); ++f)
-    for (const std::int32_t v : facet[f]) meeting.emplace_back(v, out.surface[f]);
-  std::sort(meeting.begin(), meeting.end());
-  meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
-  out.corner.assign(vertex.size(), -1);
-  for (std::size_t m = 2; m < meeting.size(); ++m) {
-    std::int32_t& corner = out.corner[index(meeting[m].first)];
-    if (meeting[m - 2].first == meeting[m].first && corner < 0) corner = out.corners++;
-  }
-  return out;
+void divide_facets(FacetMesh& mesh, double angle) {
+  find_surfaces(mesh, angle);
+  find_corners(mesh);
 }
 
 }  // namespace sculpt

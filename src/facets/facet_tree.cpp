@@ -15,30 +15,30 @@ constexpr std::size_t kMostInLeaf = 24;
 constexpr int kDeepest = 16;
 constexpr double kSlack = 1e-9;  // of the cube: facets are listed a little beyond where they are
 
-Box child_of(const Box& box, std::size_t child) {
-  Box part = box;
-  for (std::size_t d = 0; d < 3; ++d)
-    ((child >> d & 1U) != 0 ? part.lo : part.hi)[d] = 0.5 * (box.lo[d] + box.hi[d]);
-  return part;
-}
-
 bool touch(const Box& a, const Box& b) {
   for (std::size_t d = 0; d < 3; ++d)
     if (a.hi[d] < b.lo[d] || b.hi[d] < a.lo[d]) return false;
   return true;
 }
 
-double square_of_distance(const Box& box, const Vec3& p) {
+}  // namespace
+
+Box FacetTree::child_of(const Box& box, std::size_t child) {
+  Box part = box;
+  for (std::size_t d = 0; d < 3; ++d)
+    ((child >> d & 1U) != 0 ? part.lo : part.hi)[d] = 0.5 * (box.lo[d] + box.hi[d]);
+  return part;
+}
+
+double FacetTree::square_of_distance(const Box& box, const Vec3& p) {
   Vec3 off;
   for (std::size_t d = 0; d < 3; ++d) off[d] = std::max({box.lo[d] - p[d], 0.0, p[d] - box.hi[d]});
   return dot(off, off);
 }
 
-bool comes_first(const Vec3& a, const Vec3& b) {
+bool FacetTree::comes_first(const Vec3& a, const Vec3& b) {
   return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
-
-}  // namespace
 
 FacetTree::FacetTree(const FacetMesh& mesh)
     : vertices_(mesh.vertices), triangles_(mesh.triangles), bounds_(bounds_of(mesh)) {
@@ -160,26 +160,8 @@ int FacetTree::ahead(std::size_t node, const Box& box, std::size_t axis, const V
 }
 
 Vec3 FacetTree::nearest(const Vec3& p) const {
-  Nearest best{p, std::numeric_limits<double>::infinity()};
-  nearest(0, cube_, p, best);
-  return best.point;
-}
-
-void FacetTree::nearest(std::size_t node, const Box& box, const Vec3& p, Nearest& best) const {
-  const Node& n = nodes_[node];
-  if (n.count == kInner) {
-    std::array<std::pair<double, std::size_t>, 8> order;
-    for (std::size_t c = 0; c < 8; ++c) order[c] = {square_of_distance(child_of(box, c), p), c};
-    std::sort(order.begin(), order.end());
-    for (const auto& [square, c] : order)
-      if (square <= best.square) nearest(at(n.first) + c, child_of(box, c), p, best);
-    return;
-  }
-  for (LocalId i = n.first; i < n.first + n.count; ++i) {
-    const Vec3 q = nearest_point(facet(listed_[at(i)]), p);
-    const double square = dot(q - p, q - p);
-    if (square < best.square || (square == best.square && comes_first(q, best.point))) best = {q, square};
-  }
+  const auto found = nearest_of(p, std::numeric_limits<double>::infinity(), [](LocalId) { return true; });
+  return found ? found->point : p;
 }
 
 }  // namespace sculpt

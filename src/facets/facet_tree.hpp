@@ -1,11 +1,15 @@
 #pragma once
 // An octree over the facets of a surface. Leaves list the facets that reach them; leaves that none reaches
 // know the winding number there. Immutable.
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "facets/crossing.hpp"
+#include "facets/facet_box.hpp"
 #include "sculpt/facets/facet_mesh.hpp"
 #include "sculpt/geom/shape.hpp"
 
@@ -29,7 +33,20 @@ class FacetTree {
   // How often the surface goes round the point: what lines along the axes say, most of them where they
   // disagree.
   [[nodiscard]] int winding(const Vec3& p) const;
-  // The nearest point of the surface; of several the first by x, y and z.
+  struct Nearest {
+    LocalId facet;
+    Vec3 point;
+    double square;  // of the distance
+  };
+  // The nearest point of the facets for which counts(facet) holds; of several the first by x, y and z.
+  // Nothing when there is none within `reach`.
+  template <class Counts>
+  [[nodiscard]] std::optional<Nearest> nearest_of(const Vec3& p, double reach, const Counts& counts) const {
+    Nearest best{kNone, p, reach * reach};
+    find_nearest(0, cube_, p, counts, best);
+    return best.facet == kNone ? std::nullopt : std::optional(best);
+  }
+  // The nearest point of the surface.
   [[nodiscard]] Vec3 nearest(const Vec3& p) const;
 
  private:
@@ -37,10 +54,6 @@ class FacetTree {
     LocalId first = 0;         // of eight children, the low ones first, x fastest; or the place of the list
     std::int32_t count = 0;    // of facets in the list; kInner: the node has children
     std::int32_t winding = 0;  // where there is no facet
-  };
-  struct Nearest {
-    Vec3 point;
-    double square;  // of the distance
   };
   static constexpr std::int32_t kInner = -1;
 
@@ -51,7 +64,13 @@ class FacetTree {
   [[nodiscard]] int winding_by_lines(const Vec3& p) const;
   [[nodiscard]] int ahead(std::size_t node, const Box& box, std::size_t axis, const Vec3& p,
                           bool forward) const;
-  void nearest(std::size_t node, const Box& box, const Vec3& p, Nearest& best) const;
+  template <class Counts>
+  void find_nearest(std::size_t node, const Box& box, const Vec3& p, const Counts& counts,
+                    Nearest& best) const;
+
+  [[nodiscard]] static Box child_of(const Box& box, std::size_t child);
+  [[nodiscard]] static double square_of_distance(const Box& box, const Vec3& p);
+  [[nodiscard]] static bool comes_first(const Vec3& a, const Vec3& b);
 
   std::vector<Vec3> vertices_;
   std::vector<std::array<LocalId, 3>> triangles_;
@@ -59,5 +78,28 @@ class FacetTree {
   std::vector<LocalId> listed_;
   Box bounds_, cube_;
 };
+
+template <class Counts>
+void FacetTree::find_nearest(std::size_t node, const Box& box, const Vec3& p, const Counts& counts,
+                             Nearest& best) const {
+  const Node& n = nodes_[node];
+  if (n.count == kInner) {
+    std::array<std::pair<double, std::size_t>, 8> order;
+    for (std::size_t c = 0; c < 8; ++c) order[c] = {square_of_distance(child_of(box, c), p), c};
+    std::sort(order.begin(), order.end());
+    for (const auto& [square, c] : order)
+      if (square <= best.square) find_nearest(at(n.first) + c, child_of(box, c), p, counts, best);
+    return;
+  }
+  for (LocalId i = n.first; i < n.first + n.count; ++i) {
+    const LocalId f = listed_[at(i)];
+    if (!counts(f)) continue;
+    const Vec3 q = nearest_point(facet(f), p);
+    const double square = dot(q - p, q - p);
+    const bool ties = square == best.square && best.facet != kNone;
+    if (square < best.square || (ties && (comes_first(q, best.point) || (q == best.point && f < best.facet))))
+      best = {f, q, square};
+  }
+}
 
 }  // namespace sculpt

@@ -193,7 +193,7 @@ class DiatomParser {
     }
     if (!center) words_.fail_at(opening.line, "the sphere has no center, expected 'center = x y z'");
     if (!radius) words_.fail_at(opening.line, "the sphere has no radius, expected 'radius = r'");
-    shapes_.push_back({std::make_unique<Sphere>(*center, *radius), 0, {}});
+    shapes_.push_back({std::make_unique<Sphere>(*center, *radius)});
   }
 
   // The next word of a block that must be closed.

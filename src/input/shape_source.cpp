@@ -8,9 +8,12 @@
 
 #include "input/shape_fractions.hpp"
 #include "input/shape_surfaces.hpp"
+#include "sculpt/facets/facet_features.hpp"
 
 namespace sculpt {
 namespace {
+
+constexpr double kFeatureReach = 3;  // in cells
 
 class ShapeSource final : public MaterialSource {
  public:
@@ -22,7 +25,10 @@ class ShapeSource final : public MaterialSource {
     add_void(deck);
     name_surfaces(shapes);
     auto inserted = std::make_shared<std::vector<InsertedShape>>();
-    for (MaterialShape& shape : shapes) inserted->push_back({std::move(shape.shape), dense(shape.material)});
+    for (MaterialShape& shape : shapes) {
+      inserted->push_back({std::move(shape.shape), dense(shape.material)});
+      if (shape.facets) faceted_.push_back({shape.facets, dense(shape.material)});
+    }
     shapes_ = std::move(inserted);
   }
 
@@ -50,6 +56,13 @@ class ShapeSource final : public MaterialSource {
   }
 
   [[nodiscard]] ExactSurface exact_surface() const override { return surfaces_of(shapes_, grid_); }
+
+  [[nodiscard]] std::shared_ptr<const GeometryFeatures> features() const override {
+    if (faceted_.empty()) return nullptr;
+    std::vector<FacetFeatures::Solid> solids;
+    for (const auto& [mesh, material] : faceted_) solids.push_back({mesh.get(), material});
+    return std::make_shared<FacetFeatures>(solids, kFeatureReach * largest(grid_.cell_size()));
+  }
 
   [[nodiscard]] GeometrySurfaces geometry_surfaces() const override {
     GeometrySurfaces surfaces = surfaces_;
@@ -97,6 +110,11 @@ class ShapeSource final : public MaterialSource {
   Log log_;
   MaterialTable table_;
   std::shared_ptr<const std::vector<InsertedShape>> shapes_;
+  struct Faceted {
+    std::shared_ptr<const FacetMesh> mesh;
+    std::int32_t material;
+  };
+  std::vector<Faceted> faceted_;
   GeometrySurfaces surfaces_;  // without nearest
   std::int32_t outside_ = 0;   // dense index of what no shape covers
 };

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sculpt/facets/facet_mesh.hpp"
 #include "sculpt/input/material_source.hpp"
 
 namespace sculpt {
@@ -11,7 +12,9 @@ namespace sculpt {
 struct MaterialShape {
   std::unique_ptr<Shape> shape;
   std::int64_t material = 0;  // the user's id, >= 1
-  std::string package;        // of a diatom file; of one without a name: package_<place in the file, from 1>
+  // Of faceted solids whose surfaces are asked for: divided into them. Null: the shape has one surface.
+  std::shared_ptr<const FacetMesh> facets{};
+  std::string package{};  // of a diatom file; of one without a name: package_<place in the file, from 1>
 };
 
 // Local. The shapes, at least one, are in the order of insertion, the same on all ranks.

@@ -8,6 +8,7 @@
 #include "input/deck_grid.hpp"
 #include "input/shape_source.hpp"
 #include "input/text_file.hpp"
+#include "sculpt/facets/facet_surfaces.hpp"
 #include "sculpt/facets/faceted_solid.hpp"
 
 namespace sculpt {
@@ -71,6 +72,12 @@ void report(const Log& log, const std::string& path, const FacetMesh& mesh, cons
     log.line(" Diatom STL All Sides Properly matched");
 }
 
+// Whether anything is made of the smooth surfaces of solids.
+bool wants_surfaces(const Deck& deck) {
+  return deck.capture == kCaptureCurves || deck.gen_sidesets == kSidesetsGeometricSurfaces ||
+         deck.gen_sidesets == kSidesetsGeometricSidesets || deck.gen_sidesets == kSidesetsInputMeshAndStl;
+}
+
 // On rank 0: the surface of a file, repaired.
 FacetMesh repaired(const StlFile& file, const Log& log) {
   FacetMesh mesh = read_facets(file);
@@ -82,23 +89,46 @@ FacetMesh repaired(const StlFile& file, const Log& log) {
   return mesh;
 }
 
+// What divide_facets() found on rank 0, and the names of the parts.
+void share_surfaces(const Comm& comm, FacetMesh& mesh) {
+  comm.broadcast(mesh.surface, 0);
+  comm.broadcast(mesh.corner, 0);
+  comm.broadcast(mesh.part, 0);
+  mesh.surfaces = static_cast<std::int32_t>(comm.max(std::int64_t{mesh.surfaces}));
+  mesh.corners = static_cast<std::int32_t>(comm.max(std::int64_t{mesh.corners}));
+  std::vector<std::string> names = mesh.part_names;
+  const std::int64_t parts = comm.max(static_cast<std::int64_t>(names.size()));
+  names.resize(static_cast<std::size_t>(parts));
+  for (std::string& name : names) name = comm.broadcast(std::move(name), 0);
+  mesh.part_names = std::move(names);
+}
+
 }  // namespace
 
-std::vector<std::unique_ptr<Shape>> open_solids(const Comm& comm, const std::vector<StlFile>& files,
-                                                const Log& log) {
+std::vector<StlSolid> open_solids(const Comm& comm, const Deck& deck, const std::vector<StlFile>& files,
+                                  const Log& log) {
   collectively(comm, "looking for STL files", [&] {
     if (comm.rank() == 0) refuse_missing(files);
   });
-  std::vector<std::unique_ptr<Shape>> solids;
+  const bool divides = wants_surfaces(deck);
+  std::vector<StlSolid> solids;
   for (const StlFile& file : files) {
     FacetMesh mesh;
     collectively(comm, "reading " + file.path, [&] {
-      if (comm.rank() == 0) mesh = repaired(file, log);
+      if (comm.rank() != 0) return;
+      mesh = repaired(file, log);
+      if (!divides) return;
+      divide_facets(mesh, deck.capture_angle);
+      log.line("  Smooth surfaces      {}, corners {}", mesh.surfaces, mesh.corners);
     });
     comm.broadcast(mesh.vertices, 0);
     comm.broadcast(mesh.triangles, 0);
+    if (divides) share_surfaces(comm, mesh);
     collectively(comm, "indexing the facets of " + file.path, [&] {
-      solids.push_back(mesh.triangles.empty() ? nullptr : std::make_unique<FacetedSolid>(mesh));
+      StlSolid& solid = solids.emplace_back();
+      if (mesh.triangles.empty()) return;
+      solid.shape = std::make_unique<FacetedSolid>(mesh);
+      if (divides) solid.facets = std::make_shared<const FacetMesh>(std::move(mesh));
     });
   }
   return solids;
@@ -110,12 +140,12 @@ std::unique_ptr<MaterialSource> open_stl(const Comm& comm, const Deck& deck, con
   Grid grid;
   collectively(comm, "opening " + deck.stl_file,
                [&] { grid = overlay ? grid_over(*overlay, 1) : deck_box_grid(deck, "stl_file"); });
-  std::vector<std::unique_ptr<Shape>> solids = open_solids(comm, {{deck.stl_file, "stl_file"}}, log);
-  if (solids[0] == nullptr)
+  std::vector<StlSolid> solids = open_solids(comm, deck, {{deck.stl_file, "stl_file"}}, log);
+  if (solids[0].shape == nullptr)
     throw AgreedError(fmt::format("stl_file: '{}' has no facets, expected a closed surface of at least four",
                                   deck.stl_file));
   std::vector<MaterialShape> shapes;
-  shapes.push_back({std::move(solids[0]), 1, "stl"});
+  shapes.push_back({std::move(solids[0].shape), 1, std::move(solids[0].facets), "stl"});
   return shape_source(deck, std::move(shapes), std::move(grid), log);
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sculpt/facets/facet_mesh.hpp"
 #include "sculpt/input/material_source.hpp"
 
 namespace sculpt {
@@ -13,12 +14,15 @@ struct StlFile {
   std::string path, named_by;
 };
 
-// Collective. The solids of the files, the same on all ranks; null where a file holds no facets, which is
-// told by a warning. Rank 0 reads, repairs and reports. Files that cannot be opened are named together.
-// Throws AgreedError.
-[[nodiscard]] std::vector<std::unique_ptr<Shape>> open_solids(const Comm& comm,
-                                                              const std::vector<StlFile>& files,
-                                                              const Log& log);
+struct StlSolid {
+  std::unique_ptr<Shape> shape;             // null: the file holds no facets
+  std::shared_ptr<const FacetMesh> facets;  // divided into smooth surfaces; null unless these are asked for
+};
+
+// Collective. The solids of the files, the same on all ranks; a file without facets is told by a warning.
+// Rank 0 reads, repairs and reports. Files that cannot be opened are named together. Throws AgreedError.
+[[nodiscard]] std::vector<StlSolid> open_solids(const Comm& comm, const Deck& deck,
+                                                const std::vector<StlFile>& files, const Log& log);
 
 // Collective. Throws AgreedError.
 [[nodiscard]] std::unique_ptr<MaterialSource> open_stl(const Comm& comm, const Deck& deck, const Log& log,

@@ -98,6 +98,14 @@ struct Contour {
   std::vector<Vec3> grid_position;
 };
 
+void refuse_nothing_to_capture(const Deck& deck, const Overlay& overlay) {
+  if (deck.capture != kCaptureCurves || overlay.features) return;
+  throw AgreedError(
+      fmt::format("option 'capture' ({}): the input has no facets whose edges could be captured; expected "
+                  "stl_file, or a diatom file with 'insert stl'",
+                  deck.given_options.place("capture")));
+}
+
 // Ties the interface to the curves and corners of the geometry and takes it there.
 void capture(const Deck& deck, Overlay& overlay, Contour& c, const Log& log) {
   HexMesh& cells = overlay.cells;
@@ -595,6 +603,7 @@ int run(const Comm& comm, const Deck& deck) {
   const std::string quality_file = quality_file_name(deck);
   if (!quality_file.empty()) check_output_file(comm, "quality", quality_file);
   Overlay overlay = read_overlay(comm, deck, log, stages);
+  refuse_nothing_to_capture(deck, overlay);
   log.line("begin SCULPT meshing...");
   log.line("(1/9) computing normals...");
   std::vector<double> input_volume =

@@ -20,6 +20,10 @@ struct FacetMesh {
   std::vector<std::int64_t> facet;      // of each triangle: its number in the file, from 1, ascending
   std::vector<std::int32_t> part;       // of each triangle: its solid in the file, from 0
   std::vector<std::string> part_names;  // of each solid; may be empty
+  // Filled by divide_facets().
+  std::vector<std::int32_t> surface;  // of each triangle: its smooth surface, from 0
+  std::vector<std::int32_t> corner;   // of each vertex: its number among the corners, or -1
+  std::int32_t surfaces = 0, corners = 0;
 };
 
 [[nodiscard]] Box bounds_of(const FacetMesh& mesh);

@@ -66,7 +66,15 @@ class ShapeSource final : public MaterialSource {
 
   [[nodiscard]] GeometrySurfaces geometry_surfaces() const override {
     GeometrySurfaces surfaces = surfaces_;
-    surfaces.nearest = nearest_shape_of(shapes_, grid_);
+    surfaces.nearest = [shape = nearest_shape_of(shapes_, grid_), features = features(),
+                        first = first_surface_, of_feature = surface_of_feature_](
+                           const Vec3& p, std::int32_t a, std::int32_t b) -> std::optional<std::int32_t> {
+      const std::optional<std::int32_t> nearest = shape(p, a, b);
+      if (!nearest) return std::nullopt;
+      const bool divided = first[at(*nearest) + 1] > first[at(*nearest)] + 1;
+      const auto found = divided ? features->nearest(p, a, b) : std::nullopt;
+      return found ? of_feature[at(found->surface)] : first[at(*nearest)];
+    };
     return surfaces;
   }
 
@@ -76,20 +84,43 @@ class ShapeSource final : public MaterialSource {
     return static_cast<std::int32_t>(at - table_.block_id.begin());
   }
 
-  // Every shape is a surface, packages of one name are one part.
+  // Every shape is a surface, or as many as its facets are divided into. Packages of one name are one part,
+  // and so are named solids of STL files within them.
   void name_surfaces(const std::vector<MaterialShape>& shapes) {
     std::map<std::string, std::int32_t> part;
     std::vector<std::int64_t> members;
-    for (const MaterialShape& shape : shapes) {
+    const auto add = [&](const std::string& name) {
       const auto [found, is_new] =
-          part.try_emplace(shape.package, static_cast<std::int32_t>(surfaces_.part_name.size()));
+          part.try_emplace(name, static_cast<std::int32_t>(surfaces_.part_name.size()));
       if (is_new) {
-        surfaces_.part_name.push_back(shape.package);
+        surfaces_.part_name.push_back(name);
         members.push_back(0);
       }
       surfaces_.part_of_surface.push_back(found->second);
-      surfaces_.surface_name.push_back(fmt::format("{} {}", shape.package, ++members[at(found->second)]));
+      surfaces_.surface_name.push_back(fmt::format("{} {}", name, ++members[at(found->second)]));
+    };
+    for (const MaterialShape& shape : shapes) {
+      first_surface_.push_back(static_cast<std::int32_t>(surfaces_.surface_name.size()));
+      if (!shape.facets) {
+        add(shape.package);
+        continue;
+      }
+      for (const std::string& name : names_of_surfaces(*shape.facets, shape.package)) {
+        surface_of_feature_.push_back(static_cast<std::int32_t>(surfaces_.surface_name.size()));
+        add(name);
+      }
     }
+    first_surface_.push_back(static_cast<std::int32_t>(surfaces_.surface_name.size()));
+  }
+  // The solid that each smooth surface begins in: its name, or that of the package.
+  [[nodiscard]] static std::vector<std::string> names_of_surfaces(const FacetMesh& mesh,
+                                                                  const std::string& package) {
+    std::vector<std::string> names(at(mesh.surfaces));
+    for (std::size_t t = mesh.triangles.size(); t-- > 0;) {
+      const std::string& solid = mesh.part_names[at(mesh.part[t])];
+      names[at(mesh.surface[t])] = solid.empty() ? package : solid;
+    }
+    return names;
   }
 
   // A meshed void may join a material of the user's. A void that is not meshed stays apart: void_mat names
@@ -115,8 +146,10 @@ class ShapeSource final : public MaterialSource {
     std::int32_t material;
   };
   std::vector<Faceted> faceted_;
-  GeometrySurfaces surfaces_;  // without nearest
-  std::int32_t outside_ = 0;   // dense index of what no shape covers
+  GeometrySurfaces surfaces_;                // without nearest
+  std::vector<std::int32_t> first_surface_;  // per shape, and the number of all
+  std::vector<std::int32_t> surface_of_feature_;
+  std::int32_t outside_ = 0;  // dense index of what no shape covers
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ constexpr double kGiveWay = 0.3;   // price of deviation from one round of the g
 constexpr double kNoPrice = 1e-5;  // of deviation: lowering it further changes nothing
 constexpr double kLowPrice = 0.02;  // interface nodes may climb whatever the deviation
 constexpr int kFitRounds = 12, kCaptureRounds = 40, kLastFits = 6;
-constexpr double kCapturedAbove = 0.15,
+constexpr double kCapturedAbove = 0.12,
                  kCapturedEdge = 0.04;  // what captured nodes leave: quality, edges in cells
 constexpr double kFitted = 0.002;       // distance from the geometry that is not worth a move, in cells
 

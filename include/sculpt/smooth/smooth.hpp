@@ -53,7 +53,7 @@ struct SmoothOptions {
       0.1;  // curve nodes of hexes below it may leave their curve; negative: held harder
   bool hold_on_geometry = false;  // interface nodes end as near to the geometry as the target allows
   bool captured = false;  // with hold_on_geometry: that matters more than the target, down to a scaled
-                          // Jacobian of 0.15 and edges of 0.04 cells
+                          // Jacobian of 0.12 and edges of 0.04 cells
   double max_deviation =
       std::numeric_limits<double>::infinity();  // of interface nodes from the geometry; a length
   bool deviation_by_level = false;  // max_deviation is that at level 0; in smaller cells it is smaller

@@ -291,6 +291,10 @@ WantedVolumes wanted_volumes(const Deck& deck, const Overlay& overlay, std::vect
   const std::int32_t unmeshed = unmeshed_material(deck, overlay.materials);
   for (std::size_t m = 0; m < thickened.size(); ++m)
     if (unmeshed != static_cast<std::int32_t>(m)) thickened[m] = h.x * h.y * h.z * input_volume[m];
+  // Where all of the domain is meshed the largest material has what the others leave.
+  if (unmeshed == kNone)
+    thickened[static_cast<std::size_t>(std::max_element(input_volume.begin(), input_volume.end()) -
+                                       input_volume.begin())] = -1;
   return {std::move(thickened), kMostCorrected};
 }
 

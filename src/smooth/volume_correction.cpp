@@ -51,25 +51,20 @@ Vec3 volume_gradient(const HexCorners& p, std::size_t c) {
 class Corrector {
  public:
   Corrector(HexMesh& mesh, std::span<const LocalId> interface, std::span<const double> wanted,
-            double least_quality)
+            double least_quality, double most)
       : mesh_(mesh),
         interface_(interface),
-        wanted_(wanted),
+        wanted_(wanted.begin(), wanted.end()),
         least_quality_(least_quality),
         cell_(mesh.cell_size.x * mesh.cell_size.y * mesh.cell_size.z) {
+    find_hexes();
+    const std::vector<double> volume = volumes();
     place_of_.assign(wanted.size(), kNone);
     for (std::size_t m = 0; m < wanted.size(); ++m)
-      if (wanted[m] >= 0) place_of_[m] = count_++;
-    find_hexes();
-  }
-
-  // The wanted volumes of the materials that are off by this share at most.
-  [[nodiscard]] std::vector<double> wanted_within(double most) const {
-    std::vector<double> wanted(wanted_.begin(), wanted_.end());
-    const std::vector<double> missing = missing_volumes();
-    for (std::size_t m = 0; m < wanted.size(); ++m)
-      if (wanted[m] >= 0 && std::fabs(missing[at(place_of_[m])]) * cell_ > most * wanted[m]) wanted[m] = -1;
-    return wanted;
+      if (wanted[m] >= 0 && std::fabs(wanted[m] - volume[m] * cell_) <= most * wanted[m])
+        place_of_[m] = count_++;
+      else
+        wanted_[m] = -1;
   }
 
   VolumeCorrection run() {
@@ -105,7 +100,13 @@ class Corrector {
 
   // Hexes with an interface node, and the volume of the others, which does not change.
   void find_hexes() {
-    far_units_.assign(at(count_), 0);
+    far_units_.assign(wanted_.size(), 0);
+    slot_of_.assign(mesh_.position.size(), kNone);
+    for (LocalId n = 0; n < mesh_.nodes(); ++n)
+      if (interface_[at(n)] != kNone) {
+        slot_of_[at(n)] = static_cast<LocalId>(nodes_.size());
+        nodes_.push_back(n);
+      }
     for (LocalId h = 0; h < mesh_.size(); ++h) {
       bool near = false;
       for (const LocalId n : mesh_.hexes[at(h)]) near = near || interface_[at(n)] != kNone;
@@ -116,26 +117,31 @@ class Corrector {
     }
   }
   void add_volume(LocalId h, std::vector<std::int64_t>& units) const {
-    const LocalId place = place_of_[at(mesh_.material[at(h)])];
-    if (mesh_.layer[at(h)] == 0 && place != kNone)
-      units[at(place)] += to_units(hex_volume(mesh_.corners(h)) / cell_);
+    const std::size_t m = at(mesh_.material[at(h)]);
+    if (mesh_.layer[at(h)] == 0 && wanted_[m] >= 0)
+      units[m] += to_units(hex_volume(mesh_.corners(h)) / cell_);
   }
 
   // In cells, of the materials with a wanted volume.
-  std::vector<double> missing_volumes() const {
+  [[nodiscard]] std::vector<double> volumes() const {
     std::vector<std::int64_t> units = far_units_;
     for (const LocalId h : near_) add_volume(h, units);
     comm().sum(units);
+    std::vector<double> volume;
+    for (const std::int64_t u : units) volume.push_back(from_units(u));
+    return volume;
+  }
+  [[nodiscard]] std::vector<double> missing_volumes() const {
+    const std::vector<double> volume = volumes();
     std::vector<double> missing(at(count_));
     for (std::size_t m = 0; m < wanted_.size(); ++m)
-      if (place_of_[m] != kNone)
-        missing[at(place_of_[m])] = wanted_[m] / cell_ - from_units(units[at(place_of_[m])]);
+      if (place_of_[m] != kNone) missing[at(place_of_[m])] = wanted_[m] / cell_ - volume[m];
     return missing;
   }
 
-  // Gradients at the interface nodes of this rank's mesh, right at owned ones.
+  // Gradients at the nodes_, right at owned ones.
   std::vector<std::vector<Gradient>> gradients() {
-    std::vector<std::vector<Gradient>> of(mesh_.position.size());
+    std::vector<std::vector<Gradient>> of(nodes_.size());
     for (const LocalId h : near_) {
       const LocalId place = place_of_[at(mesh_.material[at(h)])];
       if (place == kNone) continue;
@@ -143,10 +149,10 @@ class Corrector {
       const Vec3 origin = p[0];
       for (Vec3& corner : p) corner = in_cells(corner - origin);
       for (std::size_t c = 0; c < 8; ++c) {
-        const LocalId n = mesh_.hexes[at(h)][c];
-        if (interface_[at(n)] == kNone) continue;
+        const LocalId slot = slot_of_[at(mesh_.hexes[at(h)][c])];
+        if (slot == kNone) continue;
         const Vec3 by = volume_gradient(p, c);
-        auto& list = of[at(n)];
+        auto& list = of[at(slot)];
         const auto found =
             std::find_if(list.begin(), list.end(), [&](const Gradient& g) { return g.place == place; });
         if (found == list.end())
@@ -155,8 +161,8 @@ class Corrector {
           found->by += by;
       }
     }
-    for (std::size_t n = 0; n < of.size(); ++n)
-      for (Gradient& g : of[n]) g.by = freedom(mesh_, static_cast<LocalId>(n), mesh_.position[n]).along(g.by);
+    for (std::size_t i = 0; i < of.size(); ++i)
+      for (Gradient& g : of[i]) g.by = freedom(mesh_, nodes_[i], mesh_.position[at(nodes_[i])]).along(g.by);
     return of;
   }
 
@@ -170,18 +176,20 @@ class Corrector {
     const auto of = gradients();
     const std::vector<double> pressure = pressures(of, missing);
     std::vector<Vec3> before = mesh_.position;
-    for (std::size_t n = 0; n < of.size(); ++n) {
-      if (of[n].empty() || mesh_.node_owner[n] != comm().rank()) continue;
-      const double scale = largest_norm(of[n]);
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const LocalId n = nodes_[i];
+      if (of[i].empty() || mesh_.node_owner[at(n)] != comm().rank()) continue;
+      const double scale = largest_norm(of[i]);
       if (scale < 1e-6) continue;
-      const double unit = mesh_.unit(static_cast<LocalId>(n)), farthest = kFarthest * unit;
+      const double unit = mesh_.unit(n), farthest = kFarthest * unit;
       Vec3 way;
-      for (const Gradient& g : of[n]) way += (unit * pressure[at(g.place)] / scale) * g.by;
+      for (const Gradient& g : of[i]) way += (unit * pressure[at(g.place)] / scale) * g.by;
       const double length = norm(way);
       if (length > farthest) way = (farthest / length) * way;
-      const Vec3 step = held(mesh_, static_cast<LocalId>(n), mesh_.position[n], scaled(way, mesh_.cell_size));
+      Vec3& p = mesh_.position[at(n)];
+      const Vec3 step = held(mesh_, n, p, scaled(way, mesh_.cell_size));
       for (std::size_t d = 0; d < 3; ++d)
-        if (step[d] != 0) mesh_.position[n][d] += step[d];
+        if (step[d] != 0) p[d] += step[d];
     }
     share_positions(mesh_);
     take_back_harm(before);
@@ -192,14 +200,13 @@ class Corrector {
                                 const std::vector<double>& missing) {
     const std::size_t n = at(count_);
     std::vector<std::int64_t> units(n * n, 0);
-    for (std::size_t node = 0; node < of.size(); ++node) {
-      if (of[node].empty() || mesh_.node_owner[node] != comm().rank()) continue;
-      const double scale = largest_norm(of[node]);
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      if (of[i].empty() || mesh_.node_owner[at(nodes_[i])] != comm().rank()) continue;
+      const double scale = largest_norm(of[i]);
       if (scale < 1e-6) continue;
-      for (const Gradient& a : of[node])
-        for (const Gradient& b : of[node])
-          units[at(a.place) * n + at(b.place)] +=
-              to_units(mesh_.unit(static_cast<LocalId>(node)) * dot(a.by, b.by) / scale);
+      for (const Gradient& a : of[i])
+        for (const Gradient& b : of[i])
+          units[at(a.place) * n + at(b.place)] += to_units(mesh_.unit(nodes_[i]) * dot(a.by, b.by) / scale);
     }
     comm().sum(units);
     std::vector<double> pressure(n, 0);
@@ -248,20 +255,20 @@ class Corrector {
 
   HexMesh& mesh_;
   std::span<const LocalId> interface_;
-  std::span<const double> wanted_;
+  std::vector<double> wanted_;
   double least_quality_, cell_;
   std::vector<LocalId> place_of_;  // per material: its place among those with a wanted volume
   LocalId count_ = 0;
-  std::vector<LocalId> near_;            // hexes with an interface node
-  std::vector<std::int64_t> far_units_;  // volume of the other ones of this rank, per place
+  std::vector<LocalId> near_;             // hexes with an interface node
+  std::vector<std::int64_t> far_units_;   // volume of the other ones of this rank, per material
+  std::vector<LocalId> nodes_, slot_of_;  // interface nodes; per mesh node: its place among them
 };
 
 }  // namespace
 
 VolumeCorrection correct_volumes(HexMesh& mesh, std::span<const LocalId> interface,
                                  std::span<const double> wanted, double least_quality, double most) {
-  const std::vector<double> chosen = Corrector(mesh, interface, wanted, least_quality).wanted_within(most);
-  return Corrector(mesh, interface, chosen, least_quality).run();
+  return Corrector(mesh, interface, wanted, least_quality, most).run();
 }
 
 }  // namespace sculpt

@@ -79,7 +79,9 @@ constexpr OptionSpec kOverlayOptions[] = {
      .group = kV,
      .slot = &Deck::xmin,
      .help = "Least x of the grid",
-     .about = "Lower corner of the grid; geometry outside the box is clipped away.",
+     .about =
+         "Lower corner of the grid; geometry outside the box is clipped away. Not given: a little below the "
+         "geometry (cell_size, bbox_expand).",
      .supported = true,
      .unset = kNoBound},
     {.name = "ymin",
@@ -127,7 +129,12 @@ constexpr OptionSpec kOverlayOptions[] = {
      .group = kV,
      .slot = &Deck::cell_size,
      .help = "Size of the cells",
-     .about = "Derives the grid from the box of the geometry; nelx, nely and nelz are ignored.",
+     .about = "Of stl_file and diatom_file: cubes of this size instead of nelx, nely and nelz. They begin "
+              "and end 2.5 "
+              "cells beyond the geometry. A bound that is given is kept exactly; between two given ones the "
+              "nearest "
+              "number of cells fits, which then are a little larger or smaller.",
+     .supported = true,
      .lo = 0,
      .unset = "none"},
     {.name = "align",
@@ -141,7 +148,10 @@ constexpr OptionSpec kOverlayOptions[] = {
      .group = kV,
      .slot = &Deck::bbox_expand,
      .help = "Growth of the tight box in percent",
-     .about = "Replaces the built-in growth of the geometry's box.",
+     .about = "Ends of the grid for which no bound is given lie this share of the geometry's size beyond it, "
+              "instead "
+              "of 2.5 cells.",
+     .supported = true,
      .lo = 0,
      .unset = "built-in"},
     {.name = "input_mesh",

@@ -51,7 +51,6 @@ int count_sources(const Deck& deck) {
 bool has_mesh(const Deck& deck) { return deck.given("input_mesh") || deck.given("input_mesh_pamgen"); }
 
 bool has_counts(const Deck& deck) { return all_given(deck, {"nelx", "nely", "nelz"}); }
-bool has_box(const Deck& deck) { return all_given(deck, {"xmin", "ymin", "zmin", "xmax", "ymax", "zmax"}); }
 
 // More cells than a 64-bit id can number with room to spare. The counts are at least 1 where they are given.
 bool too_many_cells(const Deck& deck) {
@@ -102,7 +101,6 @@ bool wrong_nodesets(const Deck& deck) {
 
 const std::vector<Rule>& rules() {
   static const Names counts = {"nelx", "nely", "nelz"};
-  static const Names box = {"xmin", "ymin", "zmin", "xmax", "ymax", "zmax"};
   static const std::vector<Rule> table = {
       {[](const Deck& d) { return count_sources(d) == 0 && !has_mesh(d); },
        {},
@@ -138,10 +136,12 @@ const std::vector<Rule>& rules() {
        "surfaces, not fractions or voxels; give diatom_file or stl_file"},
       {[](const Deck& d) { return d.given("input_spn") && !has_counts(d); }, counts,
        "input_spn needs the number of cells nelx, nely and nelz", Tell::kMissing},
-      {[](const Deck& d) { return d.given("diatom_file") && !has_mesh(d) && !has_counts(d); }, counts,
-       "diatom_file needs the number of cells nelx, nely and nelz", Tell::kMissing},
-      {[](const Deck& d) { return d.given("diatom_file") && !has_mesh(d) && !has_box(d); }, box,
-       "diatom_file needs the box of the grid, xmin, ymin, zmin, xmax, ymax and zmax", Tell::kMissing},
+      {[](const Deck& d) {
+         return (d.given("diatom_file") || d.given("stl_file")) && !has_mesh(d) && !d.given("cell_size") &&
+                !has_counts(d);
+       },
+       counts, "diatom_file and stl_file need cell_size, or the number of cells nelx, nely and nelz",
+       Tell::kMissing},
       {empty_x, {"xmin", "xmax"}, "xmin must be smaller than xmax"},
       {empty_y, {"ymin", "ymax"}, "ymin must be smaller than ymax"},
       {empty_z, {"zmin", "zmax"}, "zmin must be smaller than zmax"},

@@ -34,19 +34,6 @@ Index3 deck_intervals(const Deck& deck, const std::string& option) {
   return cells;
 }
 
-Grid deck_box_grid(const Deck& deck, const std::string& option) {
-  const Index3 cells = deck_intervals(deck, option);
-  const Vec3 lo = low_corner(deck), hi = high_corner(deck);
-  for (std::size_t d = 0; d < 3; ++d) {
-    for (const char* name : {kLowNames[d], kHighNames[d]})
-      if (!deck.given(name)) throw Error(fmt::format("{} needs {}, which is not given", option, name));
-    if (!std::isfinite(lo[d]) || !std::isfinite(hi[d]) || !(lo[d] < hi[d]))
-      throw Error(fmt::format("{} = {}, {} = {}: expected {} < {}", kLowNames[d], lo[d], kHighNames[d], hi[d],
-                              kLowNames[d], kHighNames[d]));
-  }
-  return box_grid(cells, lo, hi);
-}
-
 IndexBox deck_clip(const Deck& deck, const Grid& grid, const std::string& path) {
   const Vec3 lo = low_corner(deck), hi = high_corner(deck);
   IndexBox clip;

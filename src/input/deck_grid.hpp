@@ -10,8 +10,6 @@ namespace sculpt {
 
 // nelx, nely, nelz; `option` is the option that needs them.
 [[nodiscard]] Index3 deck_intervals(const Deck& deck, const std::string& option);
-// The grid of nelx..nelz cells between the corners xmin..zmin and xmax..zmax.
-[[nodiscard]] Grid deck_box_grid(const Deck& deck, const std::string& option);
 // The cells of the grid whose centres lie in the box of those of xmin..zmax that the deck gives.
 [[nodiscard]] IndexBox deck_clip(const Deck& deck, const Grid& grid, const std::string& path);
 // The part of a grid: the same planes, to the last bit.

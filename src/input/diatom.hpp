@@ -1,5 +1,5 @@
 #pragma once
-// `diatom_file`: materials given by analytic shapes, sampled on the grid of nelx..nelz and xmin..zmax. What
+// `diatom_file`: materials given by analytic shapes, sampled on the overlay grid (geometry_grid.hpp). What
 // no shape covers is the void.
 // On an overlay mesh within the bounds `overlay` they are asked for in its hexes, and the deck gives no grid.
 #include <memory>

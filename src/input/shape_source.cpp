@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "input/geometry_grid.hpp"
 #include "input/shape_fractions.hpp"
 #include "input/shape_surfaces.hpp"
 #include "sculpt/facets/facet_features.hpp"
@@ -152,9 +153,7 @@ class ShapeSource final : public MaterialSource {
   std::int32_t outside_ = 0;  // dense index of what no shape covers
 };
 
-}  // namespace
-
-// A grid to find shapes by: cubes, about eight per shape.
+// A grid to find shapes by within the bounds of an overlay mesh: cubes, about eight per shape.
 Grid grid_over(const Box& overlay, std::size_t shapes) {
   constexpr double kCellsPerShape = 8, kMostPerAxis = 1024;
   const Vec3 size = overlay.hi - overlay.lo;
@@ -168,8 +167,25 @@ Grid grid_over(const Box& overlay, std::size_t shapes) {
   return box_grid(cells, overlay.lo, overlay.hi);
 }
 
-std::unique_ptr<MaterialSource> shape_source(const Deck& deck, std::vector<MaterialShape> shapes, Grid grid,
-                                             const Log& log) {
+Box bounds_of(const std::vector<MaterialShape>& shapes) {
+  Box all = shapes.front().shape->bounds();
+  for (const MaterialShape& s : shapes) {
+    const Box b = s.shape->bounds();
+    for (std::size_t d = 0; d < 3; ++d) {
+      all.lo[d] = std::min(all.lo[d], b.lo[d]);
+      all.hi[d] = std::max(all.hi[d], b.hi[d]);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::unique_ptr<MaterialSource> shape_source(const Deck& deck, const std::string& option,
+                                             std::vector<MaterialShape> shapes,
+                                             const std::optional<Box>& overlay, const Log& log) {
+  Grid grid = overlay ? grid_over(*overlay, shapes.size()) : geometry_grid(deck, option, bounds_of(shapes));
+  if (!overlay) tell_geometry_grid(deck, grid, log);
   return std::make_unique<ShapeSource>(deck, std::move(shapes), std::move(grid), log);
 }
 

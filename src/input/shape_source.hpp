@@ -17,12 +17,11 @@ struct MaterialShape {
   std::string package{};  // of a diatom file; of one without a name: package_<place in the file, from 1>
 };
 
-// Local. The shapes, at least one, are in the order of insertion, the same on all ranks.
-[[nodiscard]] std::unique_ptr<MaterialSource> shape_source(const Deck& deck,
-                                                           std::vector<MaterialShape> shapes, Grid grid,
-                                                           const Log& log);
-
-// A grid to find shapes by within the bounds of an overlay mesh: cubes, about eight per shape.
-[[nodiscard]] Grid grid_over(const Box& overlay, std::size_t shapes);
+// Local. The shapes, at least one, are in the order of insertion, the same on all ranks; `option` names them.
+// overlay: the bounds of an overlay mesh; without one the grid follows from the deck and the bounds of the
+// shapes (geometry_grid.hpp). Throws Error.
+[[nodiscard]] std::unique_ptr<MaterialSource> shape_source(const Deck& deck, const std::string& option,
+                                                           std::vector<MaterialShape> shapes,
+                                                           const std::optional<Box>& overlay, const Log& log);
 
 }  // namespace sculpt

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "input/deck_grid.hpp"
+#include "input/geometry_grid.hpp"
 #include "input/shape_source.hpp"
 #include "input/text_file.hpp"
 #include "sculpt/facets/facet_surfaces.hpp"
@@ -137,16 +137,19 @@ std::vector<StlSolid> open_solids(const Comm& comm, const Deck& deck, const std:
 std::unique_ptr<MaterialSource> open_stl(const Comm& comm, const Deck& deck, const Log& log,
                                          const std::optional<Box>& overlay) {
   log.line("initializing geometry...");
-  Grid grid;
-  collectively(comm, "opening " + deck.stl_file,
-               [&] { grid = overlay ? grid_over(*overlay, 1) : deck_box_grid(deck, "stl_file"); });
+  collectively(comm, "opening " + deck.stl_file, [&] {
+    if (!overlay) check_geometry_grid(deck, "stl_file");
+  });
   std::vector<StlSolid> solids = open_solids(comm, deck, {{deck.stl_file, "stl_file"}}, log);
   if (solids[0].shape == nullptr)
     throw AgreedError(fmt::format("stl_file: '{}' has no facets, expected a closed surface of at least four",
                                   deck.stl_file));
   std::vector<MaterialShape> shapes;
   shapes.push_back({std::move(solids[0].shape), 1, std::move(solids[0].facets), "stl"});
-  return shape_source(deck, std::move(shapes), std::move(grid), log);
+  std::unique_ptr<MaterialSource> source;
+  collectively(comm, "opening " + deck.stl_file,
+               [&] { source = shape_source(deck, "stl_file", std::move(shapes), overlay, log); });
+  return source;
 }
 
 }  // namespace sculpt

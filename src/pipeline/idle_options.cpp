@@ -79,16 +79,20 @@ std::vector<std::string> idle_grid_options(const Deck& deck) {
     if (const std::string idle = given_of(deck, options); !idle.empty())
       told.push_back(fmt::format("{}; no effect: {}", why, idle));
   };
+  if (deck.stl_file.empty() && deck.diatom_file.empty())
+    tell("the input is no geometry", {"cell_size", "bbox_expand"});
+  else if (deck.given("cell_size"))
+    tell("cell_size makes the grid", {"nelx", "nely", "nelz"});
   if (deck.input_mesh.empty() && deck.input_mesh_pamgen.empty()) {
     tell("there is no input mesh",
          {"feature_angle", "exterior_sliding", "input_mesh_partition", "input_mesh_material"});
     return told;
   }
-  if (deck.input_spn.empty() && deck.diatom_file.empty())
+  if (deck.input_spn.empty() && deck.diatom_file.empty() && deck.stl_file.empty())
     tell("the materials are element variables, which leave no void to the blocks", {"input_mesh_material"});
   if (deck.input_spn.empty()) tell("the input mesh is the grid", {"nelx", "nely", "nelz"});
   tell("the input mesh has a place and cells of its own",
-       {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", "cell_size"});
+       {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", "cell_size", "bbox_expand"});
   return told;
 }
 

@@ -47,7 +47,8 @@ bool carries_sets(const Deck& deck) {
 }
 
 // Whether materials come from shapes or voxels; otherwise from the element variables of the mesh.
-bool has_geometry(const Deck& deck) { return !deck.input_spn.empty() || !deck.diatom_file.empty(); }
+bool has_shapes(const Deck& deck) { return !deck.diatom_file.empty() || !deck.stl_file.empty(); }
+bool has_geometry(const Deck& deck) { return !deck.input_spn.empty() || has_shapes(deck); }
 
 class InputMeshOverlay {
  public:
@@ -128,10 +129,11 @@ class InputMeshOverlay {
     const Index3& n = shape.grid.cells;
     log_.line("The input mesh is a Cartesian grid of {} x {} x {} cells", n[0], n[1], n[2]);
     stages_.end("check input mesh");
-    if (!deck_.diatom_file.empty()) {  // shapes are known everywhere
+    if (has_shapes(deck_)) {  // shapes are known everywhere
       Deck on_grid = deck_;
       for (const char* option : {"nelx", "nely", "nelz", "xmin", "ymin", "zmin", "xmax", "ymax", "zmax"})
         on_grid.given_options.add(option, "from the input mesh");
+      on_grid.given_options.remove("cell_size");
       on_grid.nelx = n[0];
       on_grid.nely = n[1];
       on_grid.nelz = n[2];

@@ -150,6 +150,9 @@ class GivenOptions {
   void add(std::string_view option, std::string_view place) {
     places_.insert_or_assign(std::string(option), std::string(place));
   }
+  void remove(std::string_view option) {
+    if (const auto found = places_.find(option); found != places_.end()) places_.erase(found);
+  }
   [[nodiscard]] bool has(std::string_view option) const { return places_.find(option) != places_.end(); }
   // "line 7 of deck.i" or "command line"; empty when the option was not given.
   [[nodiscard]] std::string place(std::string_view option) const {

@@ -186,8 +186,8 @@ TEST(Diatom, NeedsAGrid) {
   const TemporaryFile file(concentric("0.5", "0.8"));
   Deck deck = diatom_deck(file.path(), 4, 1);
   deck.given_options = {};
-  EXPECT_TRUE(
-      contains(error_of([&] { (void)open_source(Comm::self(), deck, Log()); }), "diatom_file needs xmin"));
+  EXPECT_TRUE(contains(error_of([&] { (void)open_source(Comm::self(), deck, Log()); }),
+                       "diatom_file needs a grid: expected cell_size, or nelx, nely and nelz"));
   deck = diatom_deck(file.path(), 4, 1);
   deck.ymax = -1;
   EXPECT_TRUE(contains(error_of([&] { (void)open_source(Comm::self(), deck, Log()); }),

@@ -74,11 +74,6 @@ TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
             "option 'cell_size' (command line) is not supported yet");
 }
 
-TEST(Validate, RefusesUnsupportedValues) {
-  EXPECT_EQ(verdict(kSpn + "gen_sidesets = 8"),
-            "option 'gen_sidesets' (line 6 of deck.i): value rve_variable (8) is not supported yet");
-}
-
 // Every unsupported switch may be written down as long as it stays off.
 TEST(Validate, AcceptsUnsupportedOptionsThatAreOff) {
   for (const OptionSpec& option : option_table()) {
@@ -136,13 +131,29 @@ TEST(Validate, AMeshIsTheGridOfSomeSources) {
       verdict(kSpn + "input_mesh_blocks = 2"),
       "input_mesh_blocks needs input_mesh or input_mesh_pamgen; given: input_mesh_blocks = 2 (line 6 of "
       "deck.i)");
-  EXPECT_EQ(verdict(kSpn + "gen_sidesets = input_mesh"),
-            "gen_sidesets = input_mesh carries the sets of an input mesh over; give input_mesh or "
-            "input_mesh_pamgen; given: gen_sidesets = input_mesh (line 6 of deck.i)");
+  EXPECT_EQ(
+      verdict(kSpn + "gen_sidesets = input_mesh"),
+      "gen_sidesets = input_mesh, input_mesh_and_stl and input_mesh_and_free_surfaces carry the sets of an "
+      "input mesh over; give input_mesh or input_mesh_pamgen; given: gen_sidesets = input_mesh (line 6 "
+      "of deck.i)");
+  EXPECT_NE(verdict(kSpn + "gen_sidesets = 7"), "no error");
   EXPECT_EQ(verdict(kSpn + "input_mesh_pamgen = m.p\ngen_sidesets = input_mesh"), "no error");
   EXPECT_EQ(verdict("input_mesh = m.g\ndiatom_file = a\ninput_spn = b"),
             "only one input geometry is allowed; given: diatom_file = a (line 3 of deck.i), input_spn = b "
             "(line 4 of deck.i)");
+}
+
+TEST(Validate, SetsOfTheGeometryNeedOneWithSurfaces) {
+  for (const char* value : {"geometric_surfaces", "geometric_sidesets"}) {
+    const std::string line = std::string("gen_sidesets = ") + value;
+    EXPECT_EQ(
+        verdict(kSpn + line),
+        "gen_sidesets = geometric_surfaces, geometric_sidesets and input_mesh_and_stl need a geometry that "
+        "has surfaces, not fractions or voxels; give diatom_file or stl_file; given: " +
+            line + " (line 6 of deck.i)");
+    EXPECT_EQ(verdict("input_mesh = m.g\ndiatom_file = a\n" + line), "no error");
+  }
+  EXPECT_NE(verdict("input_mesh = m.g\ngen_sidesets = input_mesh_and_stl"), "no error");
 }
 
 TEST(Validate, NamesWhatAnInputLacks) {

@@ -449,7 +449,15 @@ std::vector<SideFace> side_faces(const SidePlan& plan, const HexMesh& mesh, int 
                                  std::span<const ExteriorPart> parts) {
   Finder finder(mesh, stages, parts);
   for (const SidePlan::Item& item : plan.inner) finder.add_inner(item);
-  for (const SidePlan::Item& item : plan.box) finder.add_box(item);
+  // A cell of a refined grid may have several faces on one side, which are found together.
+  std::vector<SidePlan::Item> box = plan.box;
+  const auto key = [](const SidePlan::Item& item) { return std::tuple(item.cell, item.at, item.set); };
+  std::sort(box.begin(), box.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  const auto last = std::unique(box.begin(), box.end(), [](const auto& a, const auto& b) {
+    return a.cell == b.cell && a.at == b.at;
+  });
+  box.erase(last, box.end());
+  for (const SidePlan::Item& item : box) finder.add_box(item);
   for (const SidePlan::Item& item : plan.beside) finder.add_parts(item);
   return finder.done();
 }

@@ -199,7 +199,7 @@ TEST(SideSets, AreTheSameAloneAndTogether) {
   curves.curve_layers = all.curve_layers = 1;
   boundary.boundary_layers = all.boundary_layers = 1;
   for (const LayerPlan& layers : {none, surfaces, curves, boundary, all})
-    for (const int gen_sidesets : {kSidesetsFixed, kSidesetsVariable, kSidesetsRve, kSidesetsRveVariable, kSidesetsInputMeshAndFreeSurfaces})
+    for (const int gen_sidesets : {kSidesetsFixed, kSidesetsVariable, kSidesetsRveVariable})
       for (const std::int32_t left_out : {-1, 0}) {
         SCOPED_TRACE("ghost layers " + std::to_string(layers.ghost_layers()) + ", gen_sidesets " +
                      std::to_string(gen_sidesets));

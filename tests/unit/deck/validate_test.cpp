@@ -64,19 +64,13 @@ scale = 40)"),
 }
 
 TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
-  EXPECT_EQ(verdict(kSpn + "volfrac_file = v"),
-            "option 'volfrac_file' (line 6 of deck.i) is not supported yet");
+  EXPECT_EQ(verdict(kSpn + "htet = 0.2"), "option 'htet' (line 6 of deck.i) is not supported yet");
   EXPECT_EQ(verdict("input_stitch = a.st"), "option 'input_stitch' (line 2 of deck.i) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "periodic_axis = z"),
             "option 'periodic_axis' (line 6 of deck.i) is not supported yet");
-  const CommandLine line = parse_command_line(std::vector<std::string>{"-cs", "0.5"}, read_deck_file);
+  const CommandLine line = parse_command_line(std::vector<std::string>{"-dg", "0.5"}, read_deck_file);
   EXPECT_EQ(message_of([&] { validate(line.deck); }),
-            "option 'cell_size' (command line) is not supported yet");
-}
-
-TEST(Validate, RefusesUnsupportedValues) {
-  EXPECT_EQ(verdict(kSpn + "gen_sidesets = 8"),
-            "option 'gen_sidesets' (line 6 of deck.i): value rve_variable (8) is not supported yet");
+            "option 'deg_threshold' (command line) is not supported yet");
 }
 
 // Every unsupported switch may be written down as long as it stays off.
@@ -136,26 +130,41 @@ TEST(Validate, AMeshIsTheGridOfSomeSources) {
       verdict(kSpn + "input_mesh_blocks = 2"),
       "input_mesh_blocks needs input_mesh or input_mesh_pamgen; given: input_mesh_blocks = 2 (line 6 of "
       "deck.i)");
-  EXPECT_EQ(verdict(kSpn + "gen_sidesets = input_mesh"),
-            "gen_sidesets = input_mesh carries the sets of an input mesh over; give input_mesh or "
-            "input_mesh_pamgen; given: gen_sidesets = input_mesh (line 6 of deck.i)");
+  EXPECT_EQ(
+      verdict(kSpn + "gen_sidesets = input_mesh"),
+      "gen_sidesets = input_mesh, input_mesh_and_stl and input_mesh_and_free_surfaces carry the sets of an "
+      "input mesh over; give input_mesh or input_mesh_pamgen; given: gen_sidesets = input_mesh (line 6 "
+      "of deck.i)");
+  EXPECT_NE(verdict(kSpn + "gen_sidesets = 7"), "no error");
   EXPECT_EQ(verdict(kSpn + "input_mesh_pamgen = m.p\ngen_sidesets = input_mesh"), "no error");
   EXPECT_EQ(verdict("input_mesh = m.g\ndiatom_file = a\ninput_spn = b"),
             "only one input geometry is allowed; given: diatom_file = a (line 3 of deck.i), input_spn = b "
             "(line 4 of deck.i)");
 }
 
+TEST(Validate, SetsOfTheGeometryNeedOneWithSurfaces) {
+  for (const char* value : {"geometric_surfaces", "geometric_sidesets"}) {
+    const std::string line = std::string("gen_sidesets = ") + value;
+    EXPECT_EQ(
+        verdict(kSpn + line),
+        "gen_sidesets = geometric_surfaces, geometric_sidesets and input_mesh_and_stl need a geometry that "
+        "has surfaces, not fractions or voxels; give diatom_file or stl_file; given: " +
+            line + " (line 6 of deck.i)");
+    EXPECT_EQ(verdict("input_mesh = m.g\ndiatom_file = a\n" + line), "no error");
+  }
+  EXPECT_NE(verdict("input_mesh = m.g\ngen_sidesets = input_mesh_and_stl"), "no error");
+}
+
 TEST(Validate, NamesWhatAnInputLacks) {
   EXPECT_EQ(verdict("input_spn = a.spn\nnelx = 3"),
             "input_spn needs the number of cells nelx, nely and nelz; given: nelx = 3 (line 3 of deck.i); "
             "not given: nely, nelz");
-  EXPECT_EQ(verdict("diatom_file = a\nnelx = 3\nnely = 3"),
-            "diatom_file needs the number of cells nelx, nely and nelz; given: nelx = 3 (line 3 of deck.i), "
-            "nely = 3 (line 4 of deck.i); not given: nelz");
-  EXPECT_EQ(verdict("diatom_file = a\nnelx = 3\nnely = 3\nnelz = 3\nxmin = 0"),
-            "diatom_file needs the box of the grid, xmin, ymin, zmin, xmax, ymax and zmax; given: xmin = 0 "
-            "(line 6 of "
-            "deck.i); not given: ymin, zmin, xmax, ymax, zmax");
+  EXPECT_EQ(
+      verdict("diatom_file = a\nnelx = 3\nnely = 3"),
+      "diatom_file and stl_file need cell_size, or the number of cells nelx, nely and nelz; given: nelx = 3 "
+      "(line 3 of deck.i), nely = 3 (line 4 of deck.i); not given: nelz");
+  EXPECT_EQ(verdict("diatom_file = a\nnelx = 3\nnely = 3\nnelz = 3\nxmin = 0"), "no error");
+  EXPECT_EQ(verdict("stl_file = a\ncell_size = 0.1"), "no error");
 }
 
 TEST(Validate, NeedsABoxWithAnInside) {

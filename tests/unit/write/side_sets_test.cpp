@@ -131,6 +131,36 @@ TEST(SideSets, RveAreTheSixSides) {
             (std::vector<std::int64_t>{20, 20, 12, 12, 15, 15}));
 }
 
+// The sides, and the interface after them.
+TEST(SideSets, RveVariableAreTheSidesAndTheSurfacesInside) {
+  EXPECT_EQ(sizes(made(letter_f(), Hexes::kStair, kSidesetsRveVariable).faces),
+            (std::vector<std::int64_t>{20, 20, 12, 12, 15, 15, 31}));
+  EXPECT_EQ(sizes(made(letter_f(), Hexes::kStair, kSidesetsRveVariable, 0).faces),
+            (std::vector<std::int64_t>{20, 8, 12, 6, 15, 8, 31}));
+}
+
+// Free surfaces are the sets of `variable` that are towards cells left out, in the same order.
+TEST(SideSets, FreeSurfacesAreThoseOfVariable) {
+  const Case input = grains({9, 8, 10}, 12, 4, 3);
+  for (const Hexes kind : {Hexes::kStair, Hexes::kPillowed, Hexes::kAllLayers}) {
+    const Made all = made(input, kind, kSidesetsVariable, 2), fixed = made(input, kind, kSidesetsFixed, 2),
+               free = made(input, kind, kSidesetsInputMeshAndFreeSurfaces, 2);
+    std::set<std::pair<LocalId, int>> exterior;
+    for (const SideFace& f : fixed.faces)
+      if (f.set == 2) exterior.insert({f.hex, f.face});
+    std::map<std::int64_t, std::set<std::pair<LocalId, int>>> wanted, found;
+    for (const SideFace& f : all.faces)
+      if (exterior.contains({f.hex, f.face})) wanted[f.set].insert({f.hex, f.face});
+    for (const SideFace& f : free.faces) found[f.set].insert({f.hex, f.face});
+    ASSERT_EQ(found.size(), wanted.size());
+    EXPECT_GT(found.size(), 3U);
+    for (auto w = wanted.begin(), f = found.begin(); w != wanted.end(); ++w, ++f)
+      EXPECT_TRUE(w->second == f->second) << "set " << f->first;
+    EXPECT_EQ(found.begin()->first, 1);
+    EXPECT_EQ(free.faces.size(), exterior.size());
+  }
+}
+
 TEST(SideSets, OffAreNone) { EXPECT_TRUE(made(letter_f(), Hexes::kStair, kSidesetsOff).faces.empty()); }
 
 // A ball in a shell in unmeshed space: the inner interface and the outer free surface. From low x the outer

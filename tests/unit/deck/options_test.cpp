@@ -106,7 +106,6 @@ TEST(OptionTable, HoldsEveryOptionOfSculpt) {
   // require_quality, resolve_reversals, keep_materials, pillow_boundary_layers, surface_projection,
   // opt_method, opt_damping, opt_metric, adapt_remainder, periodic_directions, input_mesh_partition,
   EXPECT_EQ(option_table().size(), 155u);
-  EXPECT_EQ(option_table().size(), 155u);
 }
 
 TEST(OptionTable, DefaultsAreSculptsExceptTheQualityFloor) {

@@ -23,11 +23,11 @@ std::unique_ptr<MaterialSource> open_diatom(const Comm& comm, const Deck& deck, 
   log.line(" Finished loading diatom master buffer");
   text = comm.broadcast(std::move(text), 0);
   log.line(" Finished communicating diatom master buffer");
+  std::vector<DiatomShape> parsed;
+  collectively(comm, "reading " + path, [&] { parsed = parse_diatom(text, path); });
   std::vector<MaterialShape> shapes;
-  collectively(comm, "reading " + path, [&] {
-    shapes = parse_diatom(text, path);
-    if (overlay) grid = grid_over(*overlay, shapes.size());
-  });
+  for (DiatomShape& shape : parsed) shapes.push_back({std::move(shape.shape), shape.material});
+  if (overlay) grid = grid_over(*overlay, shapes.size());
   log.line(" Finished creating diatoms");
   return shape_source(deck, std::move(shapes), std::move(grid), log);
 }

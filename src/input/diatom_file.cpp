@@ -106,7 +106,7 @@ class DiatomParser {
  public:
   DiatomParser(std::string_view text, const std::string& path) : words_(text, path), path_(path) {}
 
-  std::vector<MaterialShape> parse() {
+  std::vector<DiatomShape> parse() {
     while (!words_.done()) {
       const Word& word = words_.take();
       if (!is_keyword(word, "diatoms", 3)) unknown(word, "'diatom'");
@@ -203,12 +203,12 @@ class DiatomParser {
 
   Words words_;
   const std::string& path_;
-  std::vector<MaterialShape> shapes_;
+  std::vector<DiatomShape> shapes_;
 };
 
 }  // namespace
 
-std::vector<MaterialShape> parse_diatom(std::string_view text, const std::string& path) {
+std::vector<DiatomShape> parse_diatom(std::string_view text, const std::string& path) {
   return DiatomParser(text, path).parse();
 }
 

@@ -84,24 +84,56 @@ FacetMesh repaired(const StlFile& file, const Log& log) {
 
 }  // namespace
 
-std::vector<std::unique_ptr<Shape>> open_solids(const Comm& comm, const std::vector<StlFile>& files,
-                                                const Log& log) {
+std::vector<std::unique_ptr<FacetedSolid>> open_solids(const Comm& comm, const std::vector<StlFile>& files,
+                                                       const Log& log) {
   collectively(comm, "looking for STL files", [&] {
     if (comm.rank() == 0) refuse_missing(files);
   });
-  std::vector<std::unique_ptr<Shape>> solids;
-  for (const StlFile& file : files) {
-    FacetMesh mesh;
-    collectively(comm, "reading " + file.path, [&] {
-      if (comm.rank() == 0) mesh = repaired(file, log);
+  std::vector<std::unique_ptr<FacetedSolid>> solids(files.size());
+  std::vector<Box> bounds;  // of each file that has facets
+  std::vector<std::int64_t> facets;
+  collectively(comm, "reading STL files", [&] {
+    if (comm.rank() != 0) return;
+    for (std::size_t f = 0; f < files.size(); ++f) {
+      const FacetMesh mesh = repaired(files[f], log);
+      facets.push_back(static_cast<std::int64_t>(mesh.triangles.size()));
+      bounds.push_back(mesh.triangles.empty() ? Box{} : bounds_of(mesh));
+      if (facets[f] > 0) solids[f] = std::make_unique<FacetedSolid>(mesh);
+    }
+  });
+  comm.broadcast(facets, 0);
+  comm.broadcast(bounds, 0);
+  for (std::size_t f = 0; f < files.size() && comm.rank() != 0; ++f)
+    if (facets[f] > 0) solids[f] = std::make_unique<FacetedSolid>(bounds[f]);
+  return solids;
+}
+
+void hand_out(const Comm& comm, std::span<FacetedSolid* const> solids, std::span<const Box> regions) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 26;  // of the parts that are on their way at a time
+  const std::size_t ranks = regions.size(), parts = solids.size() * ranks;
+  std::size_t sent = 0, received = 0;  // parts, by solids and descending ranks; solids
+  while (comm.max(std::int64_t{comm.rank() == 0 && sent < parts}) == 1) {
+    std::vector<std::vector<char>> to(ranks);
+    std::vector<std::vector<std::int64_t>> sizes(ranks);
+    collectively(comm, "cutting facets into parts", [&] {
+      for (std::size_t bytes = 0; comm.rank() == 0 && sent < parts && bytes < kMostBytes; ++sent) {
+        const std::size_t r = ranks - 1 - sent % ranks;
+        const std::vector<char> part = solids[sent / ranks]->part(regions[r]);
+        to[r].insert(to[r].end(), part.begin(), part.end());
+        sizes[r].push_back(static_cast<std::int64_t>(part.size()));
+        bytes += part.size();
+      }
     });
-    comm.broadcast(mesh.vertices, 0);
-    comm.broadcast(mesh.triangles, 0);
-    collectively(comm, "indexing the facets of " + file.path, [&] {
-      solids.push_back(mesh.triangles.empty() ? nullptr : std::make_unique<FacetedSolid>(mesh));
+    const std::vector<char> bytes = comm.all_to_all(to)[0];
+    const std::vector<std::int64_t> size = comm.all_to_all(sizes)[0];
+    collectively(comm, "receiving facets", [&] {
+      std::span<const char> rest = bytes;
+      for (const std::int64_t s : size) {
+        solids[received++]->become(rest.first(static_cast<std::size_t>(s)));
+        rest = rest.subspan(static_cast<std::size_t>(s));
+      }
     });
   }
-  return solids;
 }
 
 std::unique_ptr<MaterialSource> open_stl(const Comm& comm, const Deck& deck, const Log& log,
@@ -110,7 +142,7 @@ std::unique_ptr<MaterialSource> open_stl(const Comm& comm, const Deck& deck, con
   Grid grid;
   collectively(comm, "opening " + deck.stl_file,
                [&] { grid = overlay ? grid_over(*overlay, 1) : deck_box_grid(deck, "stl_file"); });
-  std::vector<std::unique_ptr<Shape>> solids = open_solids(comm, {{deck.stl_file, "stl_file"}}, log);
+  std::vector<std::unique_ptr<FacetedSolid>> solids = open_solids(comm, {{deck.stl_file, "stl_file"}}, log);
   if (solids[0] == nullptr)
     throw AgreedError(fmt::format("stl_file: '{}' has no facets, expected a closed surface of at least four",
                                   deck.stl_file));

@@ -1,9 +1,11 @@
 #pragma once
 // Solids of STL files, and `stl_file`: one of them as material 1.
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "sculpt/facets/faceted_solid.hpp"
 #include "sculpt/input/material_source.hpp"
 
 namespace sculpt {
@@ -13,12 +15,16 @@ struct StlFile {
   std::string path, named_by;
 };
 
-// Collective. The solids of the files, the same on all ranks; null where a file holds no facets, which is
-// told by a warning. Rank 0 reads, repairs and reports. Files that cannot be opened are named together.
-// Throws AgreedError.
-[[nodiscard]] std::vector<std::unique_ptr<Shape>> open_solids(const Comm& comm,
-                                                              const std::vector<StlFile>& files,
-                                                              const Log& log);
+// Collective. The solids of the files; null where a file holds no facets, which is told by a warning. Rank 0
+// reads, repairs and reports; the others know the bounds only, until hand_out() is called. Files that cannot
+// be opened are named together. Throws AgreedError.
+[[nodiscard]] std::vector<std::unique_ptr<FacetedSolid>> open_solids(const Comm& comm,
+                                                                     const std::vector<StlFile>& files,
+                                                                     const Log& log);
+
+// Collective. Every rank gets of the solids what it needs in its region (known to all ranks); rank 0 drops
+// the rest.
+void hand_out(const Comm& comm, std::span<FacetedSolid* const> solids, std::span<const Box> regions);
 
 // Collective. Throws AgreedError.
 [[nodiscard]] std::unique_ptr<MaterialSource> open_stl(const Comm& comm, const Deck& deck, const Log& log,

@@ -10,8 +10,10 @@
 namespace sculpt {
 
 struct DiatomShape {
-  std::unique_ptr<Shape> shape;
-  std::int64_t material = 0;  // the user's id, >= 1
+  std::unique_ptr<Shape> shape;  // null: what an STL file holds
+  std::int64_t material = 0;     // the user's id, >= 1
+  std::string stl_file;
+  std::int64_t line = 0;  // where it is inserted
 };
 
 // Local. The shapes in the order of insertion, at least one. `path` is for messages: Error with file and

@@ -42,7 +42,7 @@ PartitionMethod partition_method(const Deck& deck) {
 }
 
 // Whether materials come from shapes or voxels; otherwise from the element variables of the mesh.
-bool has_geometry(const Deck& deck) { return !deck.input_spn.empty() || !deck.diatom_file.empty(); }
+bool has_geometry(const Deck& deck) { return !deck.input_spn.empty() || has_shapes(deck); }
 
 class InputMeshOverlay {
  public:
@@ -121,7 +121,7 @@ class InputMeshOverlay {
     const Index3& n = shape.grid.cells;
     log_.line("The input mesh is a Cartesian grid of {} x {} x {} cells", n[0], n[1], n[2]);
     stages_.end("check input mesh");
-    if (!deck_.diatom_file.empty()) {  // shapes are known everywhere
+    if (has_shapes(deck_)) {  // shapes are known everywhere
       Deck on_grid = deck_;
       for (const char* option : {"nelx", "nely", "nelz", "xmin", "ymin", "zmin", "xmax", "ymax", "zmax"})
         on_grid.given_options.add(option, "from the input mesh");

@@ -11,6 +11,7 @@
 #include "balls.hpp"
 #include "fractions.hpp"
 #include "grains.hpp"
+#include "pebble.hpp"
 #include "phases.hpp"
 #include "spheres.hpp"
 #include "spray.hpp"
@@ -26,6 +27,7 @@ constexpr const char* kHelp = R"(Usage:
   microstructure balls NX NY NZ COUNT SEED FILE.spn       balls (2) in a matrix (1)
   microstructure fractions NX NY NZ GRAINS SEED FILE.tec  polycrystal as volume fractions
   microstructure spheres BOX COUNT SEED FILE.diatom       balls of several sizes in the cube from 0 to BOX
+  microstructure pebble LEVEL SEED FILE.stl               a bumpy hollow body of 16 * 4^LEVEL triangles
 
 NX, NY, NZ: number of cells, up to 600. An .spn file has z fastest and x slowest, one row of the file per row of cells along z.
 )";
@@ -97,9 +99,14 @@ void make(Arguments& arguments) {
     options.count = arguments.number(1, 5000);
     options.seed = arguments.seed();
     write_spheres(arguments.text(), options);
+  } else if (kind == "pebble") {
+    microstructure::PebbleOptions options;
+    options.level = arguments.number(0, 10);
+    options.seed = arguments.seed();
+    write_pebble(arguments.text(), options);
   } else {
     throw std::runtime_error("found '" + kind +
-                             "', expected grains, phases, spray, balls, fractions or spheres");
+                             "', expected grains, phases, spray, balls, fractions, spheres or pebble");
   }
 }
 

@@ -161,7 +161,8 @@ constexpr OptionSpec kOverlayOptions[] = {
      .help = "Hex mesh used as grid",
      .about =
          "Any Exodus hex mesh as base grid: one or many blocks, structured or not. Materials come from a "
-         "geometry source (input_spn, diatom_file) or from the element variables of the mesh, one volume "
+         "geometry source (input_spn, diatom_file, stl_file) or from the element variables of the mesh, one "
+         "volume "
          "fraction per material. With several processes the files <name>.<processes>.<rank> of decomp are "
          "used when they exist; otherwise the mesh is partitioned (input_mesh_partition).",
      .supported = true,

@@ -8,15 +8,18 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-double component_sum(const Vec3& a) { return std::fabs(a.x) + std::fabs(a.y) + std::fabs(a.z); }
+bool is_inside(const Vec3& p, const Box& box) {
+  return box.lo.x < p.x && p.x < box.hi.x && box.lo.y < p.y && p.y < box.hi.y && box.lo.z < p.z &&
+         p.z < box.hi.z;
+}
 
 // Whether the corners p, seen from the centre of a box of these half sizes, are all beyond it along an axis.
-bool is_apart(const Triangle& p, const Vec3& half, const Vec3& axis) {
-  const auto [least, most] = std::minmax({dot(p[0], axis), dot(p[1], axis), dot(p[2], axis)});
-  const double reach = half.x * std::fabs(axis.x) + half.y * std::fabs(axis.y) + half.z * std::fabs(axis.z);
-  const double slack = kRounding * component_sum(axis) *
-                       (largest(half) + std::max({largest(p[0]), largest(p[1]), largest(p[2])}));
-  return least > reach + slack || most < -reach - slack;
+// slack: rounding of coordinates.
+bool is_apart(const Triangle& p, const Vec3& half, const Vec3& axis, double slack) {
+  const double a = dot(p[0], axis), b = dot(p[1], axis), c = dot(p[2], axis);
+  const Vec3 size{std::fabs(axis.x), std::fabs(axis.y), std::fabs(axis.z)};
+  const double reach = dot(half, size) + slack * (size.x + size.y + size.z);
+  return std::min(a, std::min(b, c)) > reach || std::max(a, std::max(b, c)) < -reach;
 }
 
 }  // namespace
@@ -27,13 +30,17 @@ bool reaches(const Triangle& facet, const Box& box) {
     const double a = facet[0][d], b = facet[1][d], c = facet[2][d];
     if (std::max(a, std::max(b, c)) <= box.lo[d] || std::min(a, std::min(b, c)) >= box.hi[d]) return false;
   }
+  for (const Vec3& corner : facet)
+    if (is_inside(corner, box)) return true;
   const Vec3 centre = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
   const Triangle p{facet[0] - centre, facet[1] - centre, facet[2] - centre};
+  const double slack =
+      kRounding * (largest(half) + std::max(largest(p[0]), std::max(largest(p[1]), largest(p[2]))));
   const std::array<Vec3, 3> edge{p[1] - p[0], p[2] - p[1], p[0] - p[2]};
-  if (is_apart(p, half, cross(edge[0], edge[1]))) return false;
+  if (is_apart(p, half, cross(edge[0], edge[1]), slack)) return false;
   for (const Vec3& e : edge)
-    if (is_apart(p, half, {0, e.z, -e.y}) || is_apart(p, half, {-e.z, 0, e.x}) ||
-        is_apart(p, half, {e.y, -e.x, 0}))
+    if (is_apart(p, half, {0, e.z, -e.y}, slack) || is_apart(p, half, {-e.z, 0, e.x}, slack) ||
+        is_apart(p, half, {e.y, -e.x, 0}, slack))
       return false;
   return true;
 }

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
 #include "facets/facet_box.hpp"
+#include "sculpt/base/error.hpp"
 
 namespace sculpt {
 namespace {
@@ -19,6 +22,41 @@ bool touch(const Box& a, const Box& b) {
   for (std::size_t d = 0; d < 3; ++d)
     if (a.hi[d] < b.lo[d] || b.hi[d] < a.lo[d]) return false;
   return true;
+}
+
+// Whether lines along an axis that pass one box may pass the other.
+bool share_column(const Box& a, const Box& b) {
+  int apart = 0;
+  for (std::size_t d = 0; d < 3; ++d) apart += a.hi[d] < b.lo[d] || b.hi[d] < a.lo[d];
+  return apart <= 1;
+}
+
+bool holds(const Box& box, const Vec3& p) {
+  for (std::size_t d = 0; d < 3; ++d)
+    if (p[d] < box.lo[d] || p[d] > box.hi[d]) return false;
+  return true;
+}
+
+template <class T>
+void append(const std::vector<T>& items, std::vector<char>& bytes) {
+  const std::uint64_t count = items.size();
+  const std::size_t begin = bytes.size();
+  bytes.resize(begin + sizeof count + items.size() * sizeof(T));
+  std::memcpy(bytes.data() + begin, &count, sizeof count);
+  if (count > 0) std::memcpy(bytes.data() + begin + sizeof count, items.data(), items.size() * sizeof(T));
+}
+
+template <class T>
+std::vector<T> take(std::span<const char>& bytes) {
+  std::uint64_t count = 0;
+  check(bytes.size() >= sizeof count, "a packed facet tree is cut off");
+  std::memcpy(&count, bytes.data(), sizeof count);
+  bytes = bytes.subspan(sizeof count);
+  check(bytes.size() >= count * sizeof(T), "a packed facet tree is cut off");
+  std::vector<T> items(count);
+  if (count > 0) std::memcpy(items.data(), bytes.data(), items.size() * sizeof(T));
+  bytes = bytes.subspan(items.size() * sizeof(T));
+  return items;
 }
 
 }  // namespace
@@ -50,7 +88,74 @@ FacetTree::FacetTree(const FacetMesh& mesh)
   std::iota(all.begin(), all.end(), LocalId{0});
   nodes_.emplace_back();
   divide(0, cube_, all, 0);
-  wind(0, cube_);
+  winding_.assign(nodes_.size(), kUnknown);
+}
+
+FacetTree::FacetTree(std::span<const char> packed) {
+  vertices_ = take<Vec3>(packed);
+  triangles_ = take<std::array<LocalId, 3>>(packed);
+  nodes_ = take<Node>(packed);
+  listed_ = take<LocalId>(packed);
+  winding_ = take<std::int32_t>(packed);
+  const std::vector<Box> boxes = take<Box>(packed);
+  bounds_ = boxes.at(0);
+  cube_ = boxes.at(1);
+}
+
+std::vector<char> FacetTree::pack(const Box& region) const {
+  FacetTree part;
+  part.nodes_.emplace_back();
+  part.winding_.push_back(kUnknown);
+  copy_part(0, cube_, region, part, 0);
+  part.number_facets(*this);
+  std::vector<char> bytes;
+  append(part.vertices_, bytes);
+  append(part.triangles_, bytes);
+  append(part.nodes_, bytes);
+  append(part.listed_, bytes);
+  append(part.winding_, bytes);
+  append(std::vector<Box>{bounds_, cube_}, bytes);
+  return bytes;
+}
+
+// Copies what the part needs below a node; facets keep their numbers.
+void FacetTree::copy_part(std::size_t node, const Box& box, const Box& region, FacetTree& part,
+                          std::size_t to) const {
+  const Node& n = nodes_[node];
+  if (!share_column(box, region)) return;  // an empty leaf that nobody asks for
+  if (n.count == kInner) {
+    const std::size_t first = part.nodes_.size();
+    part.nodes_[to] = {static_cast<LocalId>(first), kInner};
+    part.nodes_.resize(first + 8);
+    part.winding_.resize(first + 8, kUnknown);
+    for (std::size_t c = 0; c < 8; ++c) copy_part(at(n.first) + c, child_of(box, c), region, part, first + c);
+    return;
+  }
+  part.nodes_[to] = {static_cast<LocalId>(part.listed_.size()), n.count};
+  const auto first = listed_.begin() + n.first;
+  part.listed_.insert(part.listed_.end(), first, first + n.count);
+  // The part may lack what lines from outside the region meet.
+  if (n.count == 0 && touch(box, region) && !holds(region, odd_point(box)))
+    part.winding_[to] = winding_of_leaf(node, box);
+}
+
+// Copies the facets that are listed and numbers them and their vertices anew, in the same order.
+void FacetTree::number_facets(const FacetTree& whole) {
+  std::vector<LocalId> facet(whole.triangles_.size(), kNone), vertex(whole.vertices_.size(), kNone);
+  for (const LocalId f : listed_) facet[at(f)] = 0;
+  for (std::size_t f = 0; f < facet.size(); ++f) {
+    if (facet[f] == kNone) continue;
+    facet[f] = static_cast<LocalId>(triangles_.size());
+    triangles_.push_back(whole.triangles_[f]);
+    for (LocalId& v : triangles_.back()) {
+      if (vertex[at(v)] == kNone) {
+        vertex[at(v)] = static_cast<LocalId>(vertices_.size());
+        vertices_.push_back(whole.vertices_[at(v)]);
+      }
+      v = vertex[at(v)];
+    }
+  }
+  for (LocalId& f : listed_) f = facet[at(f)];
 }
 
 void FacetTree::divide(std::size_t node, const Box& box, std::vector<LocalId>& facets, int depth) {
@@ -61,7 +166,7 @@ void FacetTree::divide(std::size_t node, const Box& box, std::vector<LocalId>& f
     return;
   }
   const std::size_t first = nodes_.size();
-  nodes_[node] = {static_cast<LocalId>(first), kInner, 0};
+  nodes_[node] = {static_cast<LocalId>(first), kInner};
   nodes_.resize(first + 8);
   const double slack = kSlack * (cube_.hi.x - cube_.lo.x);
   std::array<std::vector<LocalId>, 8> of_child;
@@ -74,12 +179,6 @@ void FacetTree::divide(std::size_t node, const Box& box, std::vector<LocalId>& f
   }
   facets = {};
   for (std::size_t c = 0; c < 8; ++c) divide(first + c, child_of(box, c), of_child[c], depth + 1);
-}
-
-void FacetTree::wind(std::size_t node, const Box& box) {
-  if (nodes_[node].count == 0) nodes_[node].winding = winding_by_lines(odd_point(box));
-  if (nodes_[node].count != kInner) return;
-  for (std::size_t c = 0; c < 8; ++c) wind(at(nodes_[node].first) + c, child_of(box, c));
 }
 
 bool FacetTree::is_reached(std::size_t node, const Box& of_node, const Box& box) const {
@@ -117,14 +216,27 @@ int FacetTree::winding(const Vec3& p) const {
   for (std::size_t d = 0; d < 3; ++d)
     if (!(cube_.lo[d] <= p[d] && p[d] < cube_.hi[d])) return 0;
   std::size_t node = 0;
-  for (Box box = cube_; nodes_[node].count == kInner;) {
+  Box box = cube_;
+  while (nodes_[node].count == kInner) {
     std::size_t c = 0;
     for (std::size_t d = 0; d < 3; ++d)
       if (p[d] >= 0.5 * (box.lo[d] + box.hi[d])) c += std::size_t{1} << d;
     node = at(nodes_[node].first) + c;
     box = child_of(box, c);
   }
-  return nodes_[node].count == 0 ? nodes_[node].winding : winding_by_lines(p);
+  if (nodes_[node].count > 0) return winding_by_lines(p);
+  return winding_of_leaf(node, box);
+}
+
+// Several threads may find the same out.
+std::int32_t FacetTree::winding_of_leaf(std::size_t node, const Box& box) const {
+  const std::atomic_ref<std::int32_t> known(winding_[node]);
+  std::int32_t winding = known.load(std::memory_order_relaxed);
+  if (winding == kUnknown) {
+    winding = winding_by_lines(odd_point(box));
+    known.store(winding, std::memory_order_relaxed);
+  }
+  return winding;
 }
 
 // Lines in different directions do not all pass the same hole.

@@ -1,10 +1,11 @@
 #pragma once
 // An octree over the facets of a surface. Leaves list the facets that reach them; leaves that none reaches
-// know the winding number there. Immutable.
+// have one winding number. Several threads may ask at once.
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,12 @@ class FacetTree {
  public:
   // Of a mesh that is not empty.
   explicit FacetTree(const FacetMesh& mesh);
+  // Of what pack() gave.
+  explicit FacetTree(std::span<const char> packed);
+
+  // All that questions within the region ask for: what reaches it or the six columns that lines from it pass.
+  // The answers are those of the whole tree.
+  [[nodiscard]] std::vector<char> pack(const Box& region) const;
 
   [[nodiscard]] const Box& bounds() const { return bounds_; }  // of the surface
   [[nodiscard]] const Box& cube() const { return cube_; }      // the bounds and more
@@ -51,14 +58,16 @@ class FacetTree {
 
  private:
   struct Node {
-    LocalId first = 0;         // of eight children, the low ones first, x fastest; or the place of the list
-    std::int32_t count = 0;    // of facets in the list; kInner: the node has children
-    std::int32_t winding = 0;  // where there is no facet
+    LocalId first = 0;       // of eight children, the low ones first, x fastest; or the place of the list
+    std::int32_t count = 0;  // of facets in the list; kInner: the node has children
   };
-  static constexpr std::int32_t kInner = -1;
+  static constexpr std::int32_t kInner = -1, kUnknown = INT32_MAX;
 
+  FacetTree() = default;
+  void copy_part(std::size_t node, const Box& box, const Box& region, FacetTree& part, std::size_t to) const;
+  void number_facets(const FacetTree& whole);
+  [[nodiscard]] std::int32_t winding_of_leaf(std::size_t node, const Box& box) const;
   void divide(std::size_t node, const Box& box, std::vector<LocalId>& facets, int depth);
-  void wind(std::size_t node, const Box& box);
   [[nodiscard]] bool is_reached(std::size_t node, const Box& of_node, const Box& box) const;
   void find(std::size_t node, const Box& of_node, const Box& box, std::vector<LocalId>& found) const;
   [[nodiscard]] int winding_by_lines(const Vec3& p) const;
@@ -76,6 +85,7 @@ class FacetTree {
   std::vector<std::array<LocalId, 3>> triangles_;
   std::vector<Node> nodes_;
   std::vector<LocalId> listed_;
+  mutable std::vector<std::int32_t> winding_;  // in leaves without facets, once it was asked for
   Box bounds_, cube_;
 };
 

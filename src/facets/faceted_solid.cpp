@@ -8,9 +8,12 @@
 
 namespace sculpt {
 
-FacetedSolid::FacetedSolid(const FacetMesh& mesh) : tree_(std::make_shared<const FacetTree>(mesh)) {}
+FacetedSolid::FacetedSolid(const FacetMesh& mesh)
+    : bounds_(bounds_of(mesh)), tree_(std::make_shared<const FacetTree>(mesh)) {}
 
-Box FacetedSolid::bounds() const { return tree_->bounds(); }
+std::vector<char> FacetedSolid::part(const Box& region) const { return tree_->pack(region); }
+
+void FacetedSolid::become(std::span<const char> part) { tree_ = std::make_shared<const FacetTree>(part); }
 
 bool FacetedSolid::contains(const Box& box) const {
   return !tree_->is_reached(box) && tree_->winding(odd_point(box)) > 0;

@@ -62,12 +62,7 @@ void CellMeter::measure(const Box& cell, std::span<const std::int32_t> candidate
 void CellMeter::measure(const HexCorners& hex, std::span<const std::int32_t> candidates,
                         Fractions& fractions) {
   const Box bounds = bounds_of(hex);
-  // Shapes are convex, and so is all that a hex reaches: what holds its corners holds the hex.
-  select(bounds, candidates, [&](const Shape& s) {
-    return std::all_of(hex.begin(), hex.end(), [&](const Vec3& corner) {
-      return s.contains({corner, corner});
-    });
-  });
+  select(bounds, candidates, [&](const Shape& s) { return s.contains(bounds); });
   if (const auto sole = sole_selected()) {
     fractions.add(*sole, 1.0);
   } else {

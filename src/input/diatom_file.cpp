@@ -106,7 +106,7 @@ class DiatomParser {
  public:
   DiatomParser(std::string_view text, const std::string& path) : words_(text, path), path_(path) {}
 
-  std::vector<MaterialShape> parse() {
+  std::vector<DiatomShape> parse() {
     while (!words_.done()) {
       const Word& word = words_.take();
       if (!is_keyword(word, "diatoms", 3)) unknown(word, "'diatom'");
@@ -171,9 +171,28 @@ class DiatomParser {
 
   void parse_insert(const Word& opening) {
     const Word& kind = words_.take("the name of a shape after 'insert'");
-    if (!is_keyword(kind, "sphere", 3))
-      words_.fail_at(kind.line,
-                     fmt::format("insert {} is not supported yet, expected 'sphere'", quoted(kind.text)));
+    if (is_keyword(kind, "stl", 3))
+      parse_stl_file(opening);
+    else if (is_keyword(kind, "sphere", 3))
+      parse_sphere(opening);
+    else
+      words_.fail_at(kind.line, fmt::format("insert {} is not supported yet, expected 'sphere' or 'stl'",
+                                            quoted(kind.text)));
+  }
+
+  void parse_stl_file(const Word& opening) {
+    std::string file;
+    while (true) {
+      const Word& word = next(opening, "insert", "endinsert");
+      if (is_keyword(word, "endinsert", 4)) break;
+      if (!is_keyword(word, "file", 4)) unknown(word, "'file' or 'endinsert'");
+      file = words_.take("the name of an STL file").text;
+    }
+    if (file.empty()) words_.fail_at(opening.line, "the stl has no file, expected \"file = 'name.stl'\"");
+    shapes_.push_back({nullptr, 0, file, opening.line});
+  }
+
+  void parse_sphere(const Word& opening) {
     std::optional<Vec3> center;
     std::optional<double> radius;
     while (true) {
@@ -193,7 +212,7 @@ class DiatomParser {
     }
     if (!center) words_.fail_at(opening.line, "the sphere has no center, expected 'center = x y z'");
     if (!radius) words_.fail_at(opening.line, "the sphere has no radius, expected 'radius = r'");
-    shapes_.push_back({std::make_unique<Sphere>(*center, *radius)});
+    shapes_.push_back({std::make_unique<Sphere>(*center, *radius), 0, "", opening.line});
   }
 
   // The next word of a block that must be closed.
@@ -208,13 +227,13 @@ class DiatomParser {
 
   Words words_;
   const std::string& path_;
-  std::vector<MaterialShape> shapes_;
+  std::vector<DiatomShape> shapes_;
   std::int64_t packages_ = 0;
 };
 
 }  // namespace
 
-std::vector<MaterialShape> parse_diatom(std::string_view text, const std::string& path) {
+std::vector<DiatomShape> parse_diatom(std::string_view text, const std::string& path) {
   return DiatomParser(text, path).parse();
 }
 

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "input/geometry_grid.hpp"
 #include "input/shape_fractions.hpp"
 #include "input/shape_surfaces.hpp"
+#include "input/stl.hpp"
 #include "sculpt/facets/facet_features.hpp"
 
 namespace sculpt {
@@ -19,13 +21,15 @@ constexpr double kFeatureReach = 3;  // in cells
 class ShapeSource final : public MaterialSource {
  public:
   ShapeSource(const Deck& deck, std::vector<MaterialShape> shapes, Grid grid, const Log& log)
-      : grid_(std::move(grid)), log_(log) {
+      : grid_(std::move(grid)), periodic_(deck.periodic), log_(log) {
     for (const MaterialShape& shape : shapes) table_.block_id.push_back(shape.material);
     std::sort(table_.block_id.begin(), table_.block_id.end());
     table_.block_id.erase(std::unique(table_.block_id.begin(), table_.block_id.end()), table_.block_id.end());
     add_void(deck);
     name_surfaces(shapes);
     auto inserted = std::make_shared<std::vector<InsertedShape>>();
+    for (const MaterialShape& shape : shapes)
+      if (auto* solid = dynamic_cast<FacetedSolid*>(shape.shape.get())) solids_.push_back(solid);
     for (MaterialShape& shape : shapes) {
       inserted->push_back({std::move(shape.shape), dense(shape.material)});
       if (shape.facets) faceted_.push_back({shape.facets, dense(shape.material)});
@@ -36,6 +40,8 @@ class ShapeSource final : public MaterialSource {
   [[nodiscard]] const Grid& grid() const override { return grid_; }
 
   [[nodiscard]] MaterialData read(const Comm& comm, std::span<const IndexBox> wanted) override {
+    const std::vector<Box> regions = regions_of(wanted);
+    if (comm.size() > 1) hand_out(comm, solids_, regions);
     log_.line("inserting volume fractions...");
     MaterialData data;
     data.table = table_;
@@ -80,6 +86,29 @@ class ShapeSource final : public MaterialSource {
   }
 
  private:
+  // Where each rank will ask of the shapes: near the cells it wants. Without cells that anyone wants, and
+  // when space is periodic, everywhere.
+  [[nodiscard]] std::vector<Box> regions_of(std::span<const IndexBox> wanted) const {
+    constexpr std::int64_t kMargin = 3;  // cells, for the surfaces near those of the rank
+    constexpr double kFar = std::numeric_limits<double>::max();
+    const bool anywhere =
+        periodic_ || std::all_of(wanted.begin(), wanted.end(), [](const IndexBox& w) { return w.empty(); });
+    std::vector<Box> regions;
+    for (const IndexBox& w : wanted) {
+      Box box{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
+      for (std::size_t d = 0; d < 3 && !anywhere; ++d) {
+        const auto plane = [&](std::int64_t i) {
+          return grid_.planes[d][static_cast<std::size_t>(std::clamp<std::int64_t>(i, 0, grid_.cells[d]))];
+        };
+        const double margin = static_cast<double>(kMargin) * grid_.cell_size()[d];
+        box.lo[d] = plane(w.lo[d]) - margin;
+        box.hi[d] = plane(w.hi[d]) + margin;
+      }
+      regions.push_back(box);
+    }
+    return regions;
+  }
+
   [[nodiscard]] std::int32_t dense(std::int64_t id) const {
     const auto at = std::lower_bound(table_.block_id.begin(), table_.block_id.end(), id);
     return static_cast<std::int32_t>(at - table_.block_id.begin());
@@ -139,6 +168,8 @@ class ShapeSource final : public MaterialSource {
   }
 
   Grid grid_;
+  bool periodic_;
+  std::vector<FacetedSolid*> solids_;  // those among the shapes
   Log log_;
   MaterialTable table_;
   std::shared_ptr<const std::vector<InsertedShape>> shapes_;

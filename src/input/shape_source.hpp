@@ -14,7 +14,7 @@ struct MaterialShape {
   std::int64_t material = 0;  // the user's id, >= 1
   // Of faceted solids whose surfaces are asked for: divided into them. Null: the shape has one surface.
   std::shared_ptr<const FacetMesh> facets{};
-  std::string package{};  // of a diatom file; of one without a name: package_<place in the file, from 1>
+  std::string package{};  // of a diatom file
 };
 
 // Local. The shapes, at least one, are in the order of insertion, the same on all ranks; `option` names them.

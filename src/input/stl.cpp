@@ -89,8 +89,10 @@ FacetMesh repaired(const StlFile& file, const Log& log) {
   return mesh;
 }
 
-// What divide_facets() found on rank 0, and the names of the parts.
-void share_surfaces(const Comm& comm, FacetMesh& mesh) {
+// A mesh of rank 0, divided into its surfaces.
+void share(const Comm& comm, FacetMesh& mesh) {
+  comm.broadcast(mesh.vertices, 0);
+  comm.broadcast(mesh.triangles, 0);
   comm.broadcast(mesh.surface, 0);
   comm.broadcast(mesh.corner, 0);
   comm.broadcast(mesh.part, 0);
@@ -111,27 +113,61 @@ std::vector<StlSolid> open_solids(const Comm& comm, const Deck& deck, const std:
     if (comm.rank() == 0) refuse_missing(files);
   });
   const bool divides = wants_surfaces(deck);
-  std::vector<StlSolid> solids;
-  for (const StlFile& file : files) {
-    FacetMesh mesh;
-    collectively(comm, "reading " + file.path, [&] {
-      if (comm.rank() != 0) return;
-      mesh = repaired(file, log);
-      if (!divides) return;
+  std::vector<FacetMesh> meshes(files.size());  // where their surfaces are asked for
+  std::vector<StlSolid> solids(files.size());
+  std::vector<Box> bounds;  // of each file that has facets
+  std::vector<std::int64_t> facets;
+  collectively(comm, "reading STL files", [&] {
+    if (comm.rank() != 0) return;
+    for (std::size_t f = 0; f < files.size(); ++f) {
+      FacetMesh mesh = repaired(files[f], log);
+      facets.push_back(static_cast<std::int64_t>(mesh.triangles.size()));
+      bounds.push_back(mesh.triangles.empty() ? Box{} : bounds_of(mesh));
+      if (facets[f] > 0) solids[f].solid = std::make_unique<FacetedSolid>(mesh);
+      if (!divides) continue;
       divide_facets(mesh, deck.capture_angle);
       log.line("  Smooth surfaces      {}, corners {}", mesh.surfaces, mesh.corners);
-    });
-    comm.broadcast(mesh.vertices, 0);
-    comm.broadcast(mesh.triangles, 0);
-    if (divides) share_surfaces(comm, mesh);
-    collectively(comm, "indexing the facets of " + file.path, [&] {
-      StlSolid& solid = solids.emplace_back();
-      if (mesh.triangles.empty()) return;
-      solid.shape = std::make_unique<FacetedSolid>(mesh);
-      if (divides) solid.facets = std::make_shared<const FacetMesh>(std::move(mesh));
-    });
+      meshes[f] = std::move(mesh);
+    }
+  });
+  comm.broadcast(facets, 0);
+  comm.broadcast(bounds, 0);
+  for (std::size_t f = 0; f < files.size() && comm.rank() != 0; ++f)
+    if (facets[f] > 0) solids[f].solid = std::make_unique<FacetedSolid>(bounds[f]);
+  for (std::size_t f = 0; f < files.size() && divides; ++f) {
+    if (facets[f] == 0) continue;
+    share(comm, meshes[f]);
+    solids[f].facets = std::make_shared<const FacetMesh>(std::move(meshes[f]));
   }
   return solids;
+}
+
+void hand_out(const Comm& comm, std::span<FacetedSolid* const> solids, std::span<const Box> regions) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 26;  // of the parts that are on their way at a time
+  const std::size_t ranks = regions.size(), parts = solids.size() * ranks;
+  std::size_t sent = 0, received = 0;  // parts, by solids and descending ranks; solids
+  while (comm.max(std::int64_t{comm.rank() == 0 && sent < parts}) == 1) {
+    std::vector<std::vector<char>> to(ranks);
+    std::vector<std::vector<std::int64_t>> sizes(ranks);
+    collectively(comm, "cutting facets into parts", [&] {
+      for (std::size_t bytes = 0; comm.rank() == 0 && sent < parts && bytes < kMostBytes; ++sent) {
+        const std::size_t r = ranks - 1 - sent % ranks;
+        const std::vector<char> part = solids[sent / ranks]->part(regions[r]);
+        to[r].insert(to[r].end(), part.begin(), part.end());
+        sizes[r].push_back(static_cast<std::int64_t>(part.size()));
+        bytes += part.size();
+      }
+    });
+    const std::vector<char> bytes = comm.all_to_all(to)[0];
+    const std::vector<std::int64_t> size = comm.all_to_all(sizes)[0];
+    collectively(comm, "receiving facets", [&] {
+      std::span<const char> rest = bytes;
+      for (const std::int64_t s : size) {
+        solids[received++]->become(rest.first(static_cast<std::size_t>(s)));
+        rest = rest.subspan(static_cast<std::size_t>(s));
+      }
+    });
+  }
 }
 
 std::unique_ptr<MaterialSource> open_stl(const Comm& comm, const Deck& deck, const Log& log,
@@ -141,11 +177,11 @@ std::unique_ptr<MaterialSource> open_stl(const Comm& comm, const Deck& deck, con
     if (!overlay) check_geometry_grid(deck, "stl_file");
   });
   std::vector<StlSolid> solids = open_solids(comm, deck, {{deck.stl_file, "stl_file"}}, log);
-  if (solids[0].shape == nullptr)
+  if (solids[0].solid == nullptr)
     throw AgreedError(fmt::format("stl_file: '{}' has no facets, expected a closed surface of at least four",
                                   deck.stl_file));
   std::vector<MaterialShape> shapes;
-  shapes.push_back({std::move(solids[0].shape), 1, std::move(solids[0].facets), "stl"});
+  shapes.push_back({std::move(solids[0].solid), 1, std::move(solids[0].facets), "stl"});
   std::unique_ptr<MaterialSource> source;
   collectively(comm, "opening " + deck.stl_file,
                [&] { source = shape_source(deck, "stl_file", std::move(shapes), overlay, log); });

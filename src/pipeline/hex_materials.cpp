@@ -133,7 +133,7 @@ HexMaterials materials_of_variables(const Comm& comm, const std::string& path,
   if (variables.empty())
     throw AgreedError(fmt::format(
         "no source of materials: '{}' has no element variables with volume fractions; give them, or "
-        "input_spn or diatom_file",
+        "input_spn, diatom_file or stl_file",
         path));
   ElementFractions f = element_fractions(comm, path, variables, element, value);
   HexMaterials m;

@@ -88,7 +88,7 @@ std::vector<std::string> idle_grid_options(const Deck& deck) {
          {"feature_angle", "exterior_sliding", "input_mesh_partition", "input_mesh_material"});
     return told;
   }
-  if (deck.input_spn.empty() && deck.diatom_file.empty() && deck.stl_file.empty())
+  if (deck.input_spn.empty() && !has_shapes(deck))
     tell("the materials are element variables, which leave no void to the blocks", {"input_mesh_material"});
   if (deck.input_spn.empty()) tell("the input mesh is the grid", {"nelx", "nely", "nelz"});
   tell("the input mesh has a place and cells of its own",

@@ -47,7 +47,6 @@ bool carries_sets(const Deck& deck) {
 }
 
 // Whether materials come from shapes or voxels; otherwise from the element variables of the mesh.
-bool has_shapes(const Deck& deck) { return !deck.diatom_file.empty() || !deck.stl_file.empty(); }
 bool has_geometry(const Deck& deck) { return !deck.input_spn.empty() || has_shapes(deck); }
 
 class InputMeshOverlay {

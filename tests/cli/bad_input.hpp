@@ -39,6 +39,10 @@ class BadInput : public Scratch {
     write("s.diatom", "diatom\npackage 'a'\nmaterial 1\n" + insert + "endpackage\nenddiatom\n");
     write("deck.i", "BEGIN SCULPT\n" + two_spheres_deck("s.diatom") + "END SCULPT\n");
   }
+  void write_stl(const std::string& text) const {
+    write("s.stl", text);
+    write("deck.i", "BEGIN SCULPT\nstl_file = s.stl\n" + box_deck(4, 1.1) + "END SCULPT\n");
+  }
   // A grid of cells in grid.e, changed by `change`, as input.
   void write_cart_exo(const std::function<void(RankMesh&)>& change) {
     write_deck("stair = fast\nexodus_file = grid\n");

@@ -12,6 +12,7 @@
 
 #include "cases.hpp"
 #include "sculpt/exo/read_exodus.hpp"
+#include "support/surfaces.hpp"
 
 namespace sculpt::cli {
 namespace {
@@ -141,6 +142,20 @@ std::vector<Mistake> input_mistakes() {
       {"DiatomUnknownShape",
        [](BadInput& t) { t.write_diatom("insert banana\nendinsert\n"); },
        {"s.diatom", "line 4", "'banana'"}},
+      {"StlCutOff",
+       [](BadInput& t) {
+         t.write_stl(test::binary_stl(test::box_facets({0, 0, 0}, {1, 1, 1})).substr(0, 300));
+       },
+       {"s.stl", "300 bytes", "12 facets", "684 bytes"}},
+      {"StlNotANumber",
+       [](BadInput& t) { t.write_stl("solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf\n"); },
+       {"s.stl", "line 4", "'inf'", "finite"}},
+      {"StlOfNoFacets", [](BadInput& t) { t.write_stl("solid s\nendsolid s\n"); }, {"s.stl", "no facets"}},
+      {"DiatomStlsMissing",
+       [](BadInput& t) {
+         t.write_diatom("insert stl\nfile = 'a.stl'\nendinsert\ninsert stl\nfile = 'b.stl'\nendinsert\n");
+       },
+       {"s.diatom", "line 4", "2 of 2", "'a.stl', 'b.stl'"}},
       {"ExodusTruncated",
        [](BadInput& t) {
          t.write_cart_exo([](RankMesh&) {});

@@ -87,6 +87,13 @@ std::string two_spheres() {
          "enddiatom\n";
 }
 
+std::string box_deck(int cells, double half_width) {
+  std::string deck;
+  for (const char axis : {'x', 'y', 'z'})
+    deck += fmt::format("nel{0} = {1}\n{0}min = {2}\n{0}max = {3}\n", axis, cells, -half_width, half_width);
+  return deck;
+}
+
 std::string two_spheres_deck(const std::string& file) {
   return "diatom_file = " + file +
          "\nnelx = 16\nnely = 16\nnelz = 16\nxmin = -16\nymin = -16\nzmin = -16\nxmax = 16\nymax = 16\nzmax "

@@ -27,6 +27,9 @@ struct Voxels {
 [[nodiscard]] std::string two_spheres();
 [[nodiscard]] std::string two_spheres_deck(const std::string& file);
 
+// The grid of a deck: cells^3 in a cube about the origin.
+[[nodiscard]] std::string box_deck(int cells, double half_width);
+
 // Three materials that pass smoothly into each other, 8 x 7 x 6 cells, as a .tec file.
 [[nodiscard]] std::string smooth_fractions();
 

@@ -331,4 +331,9 @@ struct Deck {
   bool operator==(const Deck&) const = default;
 };
 
+// Whether the materials are known as shapes, everywhere.
+[[nodiscard]] inline bool has_shapes(const Deck& deck) {
+  return !deck.stl_file.empty() || !deck.diatom_file.empty();
+}
+
 }  // namespace sculpt

@@ -15,8 +15,15 @@ class FacetedSolid final : public Shape {
  public:
   // Of a repaired surface that is not empty.
   explicit FacetedSolid(const FacetMesh& mesh);
+  // Only the bounds are known, until become() is called.
+  explicit FacetedSolid(const Box& bounds) : bounds_(bounds) {}
 
-  [[nodiscard]] Box bounds() const override;
+  // What answers all questions within a region, as bytes for another process.
+  [[nodiscard]] std::vector<char> part(const Box& region) const;
+  // Takes on what part() gave. Nobody may ask meanwhile.
+  void become(std::span<const char> part);
+
+  [[nodiscard]] Box bounds() const override { return bounds_; }
   [[nodiscard]] bool contains(const Box& box) const override;
   [[nodiscard]] bool misses(const Box& box) const override;
   [[nodiscard]] bool is_gentle(const Box& box) const override;
@@ -30,6 +37,7 @@ class FacetedSolid final : public Shape {
   [[nodiscard]] const Shape& within(const Box& box, std::unique_ptr<Shape>& storage) const override;
 
  private:
+  Box bounds_;
   std::shared_ptr<const FacetTree> tree_;
 };
 

@@ -3,9 +3,12 @@
 #include <fmt/core.h>
 
 #include "../../unit/input/input_fixture.hpp"
+#include "support/surfaces.hpp"
 
 namespace sculpt {
 namespace {
+
+using test::operator+;
 
 // Boxes of very different kinds: slabs with one cell of overlap, everything for rank 1, nothing for rank 2.
 std::vector<IndexBox> mixed_boxes(const Comm& comm, const Index3& cells) {
@@ -206,10 +209,38 @@ TEST(FailTogether, MicroWithACellTwice) {
   EXPECT_TRUE(contains(agreed_error(deck), "two rows for the cell (2, 3, 1), counted from 0, expected one"));
 }
 
+// A surface with holes and facets that look inwards, and one that goes through itself.
+TEST(ReadTogether, Stl) {
+  test::Facets bad = test::ball_facets(24, [](const Vec3& w) { return 0.8 + 0.15 * w.x * w.y; });
+  for (std::size_t f = 0; f < bad.size(); f += 5) std::swap(bad[f][0], bad[f][1]);
+  bad.erase(bad.begin() + 100, bad.begin() + 106);
+  const test::Facets ball = test::ball_facets(20, [](const Vec3&) { return 0.6; });
+  const TemporaryFile first(Comm::world(), test::binary_stl(bad)),
+      second(Comm::world(), test::ascii_stl(ball + test::moved(ball, {0.35, 0.2, 0.1})));
+  Deck deck = diatom_deck("", 9, 1.1);
+  deck.stl_file = first.path();
+  expect_same_alone_and_together(deck);
+  const TemporaryFile both(
+      Comm::world(), fmt::format("diatom\npackage 'a'\nmaterial 2\ninsert stl\nfile = '{}'\nendi\nendp\n"
+                                 "package 'b'\nmaterial 1\ninsert stl\nfile = '{}'\nendi\nendp\nendd\n",
+                                 second.path(), first.path()));
+  expect_same_alone_and_together(diatom_deck(both.path(), 9, 1.1));
+}
+
+TEST(FailTogether, StlThatIsCutOff) {
+  const std::string text = test::binary_stl(test::box_facets({0, 0, 0}, {1, 1, 1}));
+  const TemporaryFile file(Comm::world(), text.substr(0, 400)), empty(Comm::world(), "solid\nendsolid\n");
+  Deck deck = diatom_deck("", 3, 1.1);
+  deck.stl_file = file.path();
+  EXPECT_TRUE(contains(agreed_error(deck), "found 400 bytes; a binary STL file of 12 facets"));
+  deck.stl_file = empty.path();
+  EXPECT_TRUE(contains(agreed_error(deck), "has no facets"));
+}
+
 TEST(FailTogether, DiatomWithAMistake) {
-  const TemporaryFile file(Comm::world(), "diatom\npackage 'a'\nmaterial 2\ninsert stl\n");
+  const TemporaryFile file(Comm::world(), "diatom\npackage 'a'\nmaterial 2\ninsert cube\n");
   EXPECT_TRUE(
-      contains(agreed_error(diatom_deck(file.path(), 2, 1)), "line 4: insert 'stl' is not supported yet"));
+      contains(agreed_error(diatom_deck(file.path(), 2, 1)), "line 4: insert 'cube' is not supported yet"));
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace {
 
 HexMesh smoothed(const Forest& forest, const Grid& grid) {
   HexMesh mesh = leaf_mesh(Comm::self(), grid, forest, alone(forest), 2).cells;
-  const Geometry no_interface{std::vector<LocalId>(mesh.position.size(), kNone), {}, {}, {}, {}, {}};
+  Geometry no_interface;
+  no_interface.index.assign(mesh.position.size(), kNone);
   smooth_mesh(mesh, no_interface, {}, Log());
   return mesh;
 }

@@ -43,7 +43,7 @@ Overlay read_uniform(const Comm& comm, const Deck& deck, MaterialSource& source,
   if (deck.periodic && deck.check_periodic && !source.is_data())
     check_period(comm, deck, grid, parts.periodic, parts.owned(comm.rank()),
                  *source.field({}, parts.owned(comm.rank())), data.table, log);
-  stages.end("read input");
+  stages.end(source.is_data() ? "read input" : "volume fractions");
 
   Overlay overlay{lattice_mesh(comm, grid, parts, layers),
                   std::move(data.fractions),
@@ -98,6 +98,7 @@ Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages&
   for (const std::string& idle : idle_grid_options(deck)) log.line("WARNING: {}", idle);
   if (has_input_mesh(deck)) return read_unstructured(comm, deck, log, stages);
   const auto source = open_source(comm, deck, log, std::nullopt);
+  if (!source->is_data()) stages.end("read geometry");
   return read_on_grid(comm, deck, *source, log, stages);
 }
 

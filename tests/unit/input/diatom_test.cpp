@@ -109,6 +109,25 @@ TEST(Diatom, PackagesMayShareAMaterial) {
   EXPECT_NEAR(volume(data.fractions, 0) * 0.064 / (2 * ball(1.5) + ball(1)), 1, 1e-4);
 }
 
+// Shapes are surfaces, packages are parts; those of one name are one part.
+TEST(Diatom, TellsItsSurfaces) {
+  const TemporaryFile file(diatom("package grain\nmaterial 4\n" + sphere("-2 0 0", "1") +
+                                  sphere("2 0 0", "1") + "endpackage\npackage\nmaterial 2\n" +
+                                  sphere("0 2 0", "1") + "endpackage\n package 'grain'\nmaterial 4\n" +
+                                  sphere("0 -2 0", "1") + "endpackage\n"));
+  const Deck deck = diatom_deck(file.path(), 16, 4);
+  const GeometrySurfaces s = open_source(Comm::self(), deck, Log(false))->geometry_surfaces();
+  EXPECT_EQ(s.surface_name, (std::vector<std::string>{"grain 1", "grain 2", "package_2 1", "grain 3"}));
+  EXPECT_EQ(s.part_name, (std::vector<std::string>{"grain", "package_2"}));
+  EXPECT_EQ(s.part_of_surface, (std::vector<std::int32_t>{0, 0, 1, 0}));
+  const std::int32_t two = 0, four = 1, outside = 2;
+  EXPECT_EQ(s.nearest({2.9, 0, 0}, four, outside), 1);
+  EXPECT_EQ(s.nearest({0, -1.1, 0}, outside, four), 3);
+  EXPECT_EQ(s.nearest({0, 1.2, 0}, two, -1), 2);
+  EXPECT_EQ(s.nearest({0, 1.2, 0}, four, outside), std::nullopt) << "another material";
+  EXPECT_EQ(s.nearest({0, 0, 3.5}, two, four), std::nullopt) << "far away";
+}
+
 TEST(Diatom, CellsDoNotDependOnTheBox) {
   const std::string text = diatom(package(1, sphere("0.3 0.1 0", "0.7") + sphere("-0.4 0 0.2", "0.6")) +
                                   package(2, sphere("0 0.5 -0.2", "0.8")));

@@ -131,6 +131,14 @@ TEST(SideSets, RveAreTheSixSides) {
             (std::vector<std::int64_t>{20, 20, 12, 12, 15, 15}));
 }
 
+// A refined cell may have two faces on one side, each of which plans the side of the cell.
+TEST(SideSets, ListAFaceOfTheBoxOnce) {
+  const HexMesh mesh = lattice({2, 2, 2});
+  SidePlan plan;
+  plan.box = {{0, 0, 5}, {2, 0, 5}, {0, 0, 5}};
+  EXPECT_EQ(side_faces(plan, mesh, 0).size(), 2U);
+}
+
 // The sides, and the interface after them.
 TEST(SideSets, RveVariableAreTheSidesAndTheSurfacesInside) {
   EXPECT_EQ(sizes(made(letter_f(), Hexes::kStair, kSidesetsRveVariable).faces),

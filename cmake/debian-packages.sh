@@ -4,7 +4,7 @@
 set -euo pipefail
 
 packages=(build-essential cmake ninja-build libexodusii-dev libtrilinos-zoltan-dev libtrilinos-pamgen-dev
-  libopenmpi-dev openmpi-bin libfmt-dev libgtest-dev "$@")
+  libeigen3-dev libopenmpi-dev openmpi-bin libfmt-dev libgtest-dev "$@")
 
 command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || exit 0
 

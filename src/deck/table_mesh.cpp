@@ -142,7 +142,10 @@ constexpr OptionSpec kOverlayOptions[] = {
      .group = kV,
      .slot = &Deck::align,
      .help = "Align the grid to the geometry",
-     .about = "Turns the grid to the principal direction of the geometry; used with cell_size."},
+     .about = "Turns the grid to the principal axes of inertia of the geometry (stl_file, diatom_file), as "
+              "little as "
+              "possible; bounds of the deck are then meant along these. The mesh lies where the geometry is.",
+     .supported = true},
     {.name = "bbox_expand",
      .flag = "-be",
      .group = kV,

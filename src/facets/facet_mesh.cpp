@@ -7,6 +7,10 @@
 
 namespace sculpt {
 
+void turn_facets(FacetMesh& mesh, const std::array<Vec3, 3>& axes) {
+  for (Vec3& p : mesh.vertices) p = {dot(p, axes[0]), dot(p, axes[1]), dot(p, axes[2])};
+}
+
 Box bounds_of(const FacetMesh& mesh) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};

@@ -33,6 +33,13 @@ class FacetTree {
     const auto& corner = triangles_[at(f)];
     return {vertices_[at(corner[0])], vertices_[at(corner[1])], vertices_[at(corner[2])]};
   }
+  // The facets that are in it.
+  [[nodiscard]] FacetMesh mesh() const {
+    FacetMesh all;
+    all.vertices = vertices_;
+    all.triangles = triangles_;
+    return all;
+  }
   // Whether a facet reaches the inside of the box.
   [[nodiscard]] bool is_reached(const Box& box) const { return is_reached(0, cube_, box); }
   // Replaces `found` by the facets that reach the inside of the box, ascending.

@@ -15,6 +15,13 @@ std::vector<char> FacetedSolid::part(const Box& region) const { return tree_->pa
 
 void FacetedSolid::become(std::span<const char> part) { tree_ = std::make_shared<const FacetTree>(part); }
 
+void FacetedSolid::turn(const std::array<Vec3, 3>& axes) {
+  FacetMesh mesh = tree_->mesh();
+  turn_facets(mesh, axes);
+  tree_ = std::make_shared<const FacetTree>(mesh);
+  bounds_ = tree_->bounds();
+}
+
 bool FacetedSolid::contains(const Box& box) const {
   return !tree_->is_reached(box) && tree_->winding(odd_point(box)) > 0;
 }

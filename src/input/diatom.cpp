@@ -57,10 +57,7 @@ std::unique_ptr<MaterialSource> open_diatom(const Comm& comm, const Deck& deck, 
   collectively(comm, "reading " + path, [&] { parsed = parse_diatom(text, path); });
   std::vector<MaterialShape> shapes = with_solids(comm, deck, path, std::move(parsed), log);
   log.line(" Finished creating diatoms");
-  std::unique_ptr<MaterialSource> source;
-  collectively(comm, "opening " + path,
-               [&] { source = shape_source(deck, "diatom_file", std::move(shapes), overlay, log); });
-  return source;
+  return shape_source(comm, deck, "diatom_file", std::move(shapes), overlay, log);
 }
 
 }  // namespace sculpt

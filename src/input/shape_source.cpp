@@ -8,10 +8,13 @@
 #include <map>
 
 #include "input/geometry_grid.hpp"
+#include "input/principal_axes.hpp"
 #include "input/shape_fractions.hpp"
+#include "input/shape_index.hpp"
 #include "input/shape_surfaces.hpp"
 #include "input/stl.hpp"
 #include "sculpt/facets/facet_features.hpp"
+#include "sculpt/geom/solids.hpp"
 
 namespace sculpt {
 namespace {
@@ -20,8 +23,9 @@ constexpr double kFeatureReach = 3;  // in cells
 
 class ShapeSource final : public MaterialSource {
  public:
-  ShapeSource(const Deck& deck, std::vector<MaterialShape> shapes, Grid grid, const Log& log)
-      : grid_(std::move(grid)), periodic_(deck.periodic), log_(log) {
+  ShapeSource(const Deck& deck, std::vector<MaterialShape> shapes, Grid grid,
+              const std::optional<std::array<Vec3, 3>>& axes, const Log& log)
+      : grid_(std::move(grid)), axes_(axes), periodic_(deck.periodic), log_(log) {
     for (const MaterialShape& shape : shapes) table_.block_id.push_back(shape.material);
     std::sort(table_.block_id.begin(), table_.block_id.end());
     table_.block_id.erase(std::unique(table_.block_id.begin(), table_.block_id.end()), table_.block_id.end());
@@ -53,6 +57,7 @@ class ShapeSource final : public MaterialSource {
   }
 
   [[nodiscard]] bool is_data() const override { return false; }
+  [[nodiscard]] std::optional<std::array<Vec3, 3>> axes() const override { return axes_; }
 
   [[nodiscard]] std::unique_ptr<MaterialField> field(Fractions, const IndexBox&) const override {
     return shape_field(shapes_, grid_, outside_);
@@ -168,6 +173,7 @@ class ShapeSource final : public MaterialSource {
   }
 
   Grid grid_;
+  std::optional<std::array<Vec3, 3>> axes_;  // of the grid in space
   bool periodic_;
   std::vector<FacetedSolid*> solids_;  // those among the shapes
   Log log_;
@@ -210,14 +216,71 @@ Box bounds_of(const std::vector<MaterialShape>& shapes) {
   return all;
 }
 
+// Collective. The principal axes of what the shapes fill; rank 0 knows all of it.
+std::array<Vec3, 3> axes_of(const Comm& comm, std::vector<MaterialShape>& shapes) {
+  std::vector<Vec3> axes(3);
+  collectively(comm, "finding the principal axes", [&] {
+    if (comm.rank() != 0) return;
+    const Box bounds = bounds_of(shapes);
+    std::vector<InsertedShape> inserted;
+    for (MaterialShape& s : shapes) inserted.push_back({std::move(s.shape), 0});
+    const ShapeIndex index(inserted, bounds, 0);
+    const std::array<Vec3, 3> found = principal_axes(bounds, [&](const Vec3& p) {
+      const auto near = index.around(p);
+      return std::any_of(near.begin(), near.end(), [&](std::int32_t s) {
+        return index.is_near(s, p) && inserted[at(s)].shape->contains({p, p});
+      });
+    });
+    for (std::size_t s = 0; s < shapes.size(); ++s) shapes[s].shape = std::move(inserted[s].shape);
+    axes.assign(found.begin(), found.end());
+  });
+  comm.broadcast(axes, 0);
+  return {axes[0], axes[1], axes[2]};
+}
+
+// Collective. Turns the shapes so that these directions become those of the coordinates.
+void turn(const Comm& comm, std::vector<MaterialShape>& shapes, const std::array<Vec3, 3>& axes) {
+  Frame frame;
+  for (std::size_t d = 0; d < 3; ++d) frame.axis[d] = {axes[0][d], axes[1][d], axes[2][d]};
+  for (MaterialShape& s : shapes) {
+    auto* solid = dynamic_cast<FacetedSolid*>(s.shape.get());
+    if (solid == nullptr) {
+      s.shape = moved(std::move(s.shape), frame);
+      continue;
+    }
+    collectively(comm, "turning facets", [&] {
+      if (comm.rank() == 0) solid->turn(axes);
+    });
+    std::vector<Box> bounds{solid->bounds()};
+    comm.broadcast(bounds, 0);
+    if (comm.rank() != 0) *solid = FacetedSolid(bounds[0]);
+    if (!s.facets) continue;
+    FacetMesh mesh = *s.facets;
+    turn_facets(mesh, axes);
+    s.facets = std::make_shared<const FacetMesh>(std::move(mesh));
+  }
+}
+
 }  // namespace
 
-std::unique_ptr<MaterialSource> shape_source(const Deck& deck, const std::string& option,
+std::unique_ptr<MaterialSource> shape_source(const Comm& comm, const Deck& deck, const std::string& option,
                                              std::vector<MaterialShape> shapes,
                                              const std::optional<Box>& overlay, const Log& log) {
-  Grid grid = overlay ? grid_over(*overlay, shapes.size()) : geometry_grid(deck, option, bounds_of(shapes));
-  if (!overlay) tell_geometry_grid(deck, grid, log);
-  return std::make_unique<ShapeSource>(deck, std::move(shapes), std::move(grid), log);
+  std::optional<std::array<Vec3, 3>> axes;
+  if (deck.align && !overlay) {
+    axes = axes_of(comm, shapes);
+    turn(comm, shapes, *axes);
+    const auto& [x, y, z] = *axes;
+    log.line("The grid is turned: its axes are ({:g}, {:g}, {:g}), ({:g}, {:g}, {:g}) and ({:g}, {:g}, {:g})",
+             x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z);
+  }
+  std::unique_ptr<MaterialSource> source;
+  collectively(comm, "making the grid of " + option, [&] {
+    Grid grid = overlay ? grid_over(*overlay, shapes.size()) : geometry_grid(deck, option, bounds_of(shapes));
+    if (!overlay) tell_geometry_grid(deck, grid, log);
+    source = std::make_unique<ShapeSource>(deck, std::move(shapes), std::move(grid), axes, log);
+  });
+  return source;
 }
 
 }  // namespace sculpt

@@ -17,10 +17,11 @@ struct MaterialShape {
   std::string package{};  // of a diatom file
 };
 
-// Local. The shapes, at least one, are in the order of insertion, the same on all ranks; `option` names them.
-// overlay: the bounds of an overlay mesh; without one the grid follows from the deck and the bounds of the
-// shapes (geometry_grid.hpp). Throws Error.
-[[nodiscard]] std::unique_ptr<MaterialSource> shape_source(const Deck& deck, const std::string& option,
+// Collective. The shapes, at least one, are in the order of insertion, the same on all ranks; `option` names
+// them. overlay: the bounds of an overlay mesh; without one the grid follows from the deck and the bounds of
+// the shapes (geometry_grid.hpp), which the option align turns first. Throws AgreedError.
+[[nodiscard]] std::unique_ptr<MaterialSource> shape_source(const Comm& comm, const Deck& deck,
+                                                           const std::string& option,
                                                            std::vector<MaterialShape> shapes,
                                                            const std::optional<Box>& overlay, const Log& log);
 

@@ -182,10 +182,7 @@ std::unique_ptr<MaterialSource> open_stl(const Comm& comm, const Deck& deck, con
                                   deck.stl_file));
   std::vector<MaterialShape> shapes;
   shapes.push_back({std::move(solids[0].solid), 1, std::move(solids[0].facets), "stl"});
-  std::unique_ptr<MaterialSource> source;
-  collectively(comm, "opening " + deck.stl_file,
-               [&] { source = shape_source(deck, "stl_file", std::move(shapes), overlay, log); });
-  return source;
+  return shape_source(comm, deck, "stl_file", std::move(shapes), overlay, log);
 }
 
 }  // namespace sculpt

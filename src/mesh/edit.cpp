@@ -48,6 +48,11 @@ void transform(HexMesh& mesh, const Vec3& scale, const Vec3& translate) {
   share_positions(mesh);
 }
 
+void turn(HexMesh& mesh, const std::array<Vec3, 3>& axes) {
+  for (Vec3& p : mesh.position) p = p.x * axes[0] + p.y * axes[1] + p.z * axes[2];
+  share_positions(mesh);
+}
+
 std::vector<LocalId> remove_hexes(const Comm& comm, HexMesh& mesh, std::vector<std::uint8_t> remove) {
   mesh.hex_exchange.copy_to_ghosts(remove);
   std::vector<LocalId> hex = indices_without(remove);

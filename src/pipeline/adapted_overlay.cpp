@@ -365,6 +365,7 @@ class Adapter {
     out.pure = material.pure;
     out.exact = source_.exact_surface();
     out.features = source_.features();
+    out.axes = source_.axes();
     out.geometry = wanted_surfaces(deck_, source_);
     return out;
   }

@@ -80,7 +80,7 @@ std::vector<std::string> idle_grid_options(const Deck& deck) {
       told.push_back(fmt::format("{}; no effect: {}", why, idle));
   };
   if (deck.stl_file.empty() && deck.diatom_file.empty())
-    tell("the input is no geometry", {"cell_size", "bbox_expand"});
+    tell("the input is no geometry", {"cell_size", "bbox_expand", "align"});
   else if (deck.given("cell_size"))
     tell("cell_size makes the grid", {"nelx", "nely", "nelz"});
   if (deck.input_mesh.empty() && deck.input_mesh_pamgen.empty()) {
@@ -92,7 +92,7 @@ std::vector<std::string> idle_grid_options(const Deck& deck) {
     tell("the materials are element variables, which leave no void to the blocks", {"input_mesh_material"});
   if (deck.input_spn.empty()) tell("the input mesh is the grid", {"nelx", "nely", "nelz"});
   tell("the input mesh has a place and cells of its own",
-       {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", "cell_size", "bbox_expand"});
+       {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", "cell_size", "bbox_expand", "align"});
   return told;
 }
 

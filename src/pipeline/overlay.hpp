@@ -37,10 +37,11 @@ struct Overlay {
   MaterialTable materials;
   FaceNeighbours neighbours;
   std::optional<NodeHexes> around;
-  Index3 grid{0, 0, 0};      // cells per axis, all ranks; 0: no Cartesian grid
-  Index3 numbered{0, 0, 0};  // of a lattice: those of the grid that gives the cells their ids
-  bool pure = true;          // on all ranks every cell of the input holds one material only
-  ExactSurface exact;        // what the input knows of its surfaces
+  Index3 grid{0, 0, 0};                     // cells per axis, all ranks; 0: no Cartesian grid
+  std::optional<std::array<Vec3, 3>> axes;  // directions of the grid's axes in space, where it is turned
+  Index3 numbered{0, 0, 0};                 // of a lattice: those of the grid that gives the cells their ids
+  bool pure = true;                         // on all ranks every cell of the input holds one material only
+  ExactSurface exact;                       // what the input knows of its surfaces
   std::shared_ptr<const GeometryFeatures> features;  // and of their edges and corners; null: nothing
   GeometrySurfaces geometry;                         // empty unless side sets are made of it
   // Of an input mesh.

@@ -580,6 +580,7 @@ bool exports_grid(const Deck& deck) { return deck.adapt_export && deck.adapt_typ
 // smoothed, so that it is a valid mesh.
 void write_grid(const Comm& comm, const Deck& deck, const Overlay& overlay, const Log& log, Stages& stages) {
   HexMesh cells = smooth_transitions(overlay.cells);
+  if (overlay.axes) turn(cells, *overlay.axes);
   transform(cells, scale_of(deck), {deck.xtranslate, deck.ytranslate, deck.ztranslate});
   WriteOptions options = write_options(deck, overlay.materials, cells);
   options.base = export_name(deck);
@@ -619,6 +620,7 @@ int run(const Comm& comm, const Deck& deck) {
       input_volume, [&] { return contoured_volumes(comm, deck, overlay); }, log, stages);
   hold_block_interfaces(comm, deck, overlay);
   MaterialTable materials = overlay.materials;
+  const std::optional<std::array<Vec3, 3>> axes = overlay.axes;
   for (const std::string& idle : idle_set_options(deck, materials)) log.line("WARNING: {}", idle);
   const Carried carried{overlay.block_names, overlay.sets.side_sets, overlay.sets.node_sets};
   if (exports_grid(deck)) write_grid(comm, deck, overlay, log, stages);
@@ -630,6 +632,7 @@ int run(const Comm& comm, const Deck& deck) {
   log.line("generating global ids...");
   HexMesh& mesh = meshed.mesh;
   const Displacement moved = displacement(comm, mesh, meshed.track);
+  if (axes) turn(mesh, *axes);
   transform(mesh, scale_of(deck), {deck.xtranslate, deck.ytranslate, deck.ztranslate});
   std::vector<SideFace> faces = side_set_faces(deck, meshed, log);
   const VoidRegions regions = separate_void_blocks(comm, deck, mesh, materials, log);

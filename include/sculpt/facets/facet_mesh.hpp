@@ -27,6 +27,8 @@ struct FacetMesh {
 };
 
 [[nodiscard]] Box bounds_of(const FacetMesh& mesh);
+// A vertex p comes to (p . axes[0], p . axes[1], p . axes[2]).
+void turn_facets(FacetMesh& mesh, const std::array<Vec3, 3>& axes);
 
 // What the triangles of a facet mesh share: each edge of two triangles or more joins them in a ring.
 // next[t][e]: the triangle after t around the edge from its corner e to corner e + 1, ascending with the

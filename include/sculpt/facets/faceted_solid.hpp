@@ -2,6 +2,7 @@
 // The inside of a surface of facets as a Shape: where the surface goes round a point at least once. Parts of
 // the surface may overlap; one inside another with its normals inwards makes the solid hollow. Where the
 // surface has a hole, only what is near the hole suffers.
+#include <array>
 #include <memory>
 
 #include "sculpt/facets/facet_mesh.hpp"
@@ -22,6 +23,10 @@ class FacetedSolid final : public Shape {
   [[nodiscard]] std::vector<char> part(const Box& region) const;
   // Takes on what part() gave. Nobody may ask meanwhile.
   void become(std::span<const char> part);
+
+  // Turns the solid about the origin: a point p comes to (p . axes[0], p . axes[1], p . axes[2]). All its
+  // facets are known. Nobody may ask meanwhile.
+  void turn(const std::array<Vec3, 3>& axes);
 
   [[nodiscard]] Box bounds() const override { return bounds_; }
   [[nodiscard]] bool contains(const Box& box) const override;

@@ -1,6 +1,7 @@
 #pragma once
 // Where materials come from: a file or a geometry that can say, for any box of cells, which materials they
 // hold. One class per format; the rest of the program knows only this face.
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -131,6 +132,8 @@ class MaterialSource {
   // (data: within the grid, from half a voxel on).
   [[nodiscard]] virtual std::unique_ptr<HexField> hex_field(Fractions fractions, const IndexBox& wanted,
                                                             std::int32_t outside) const;
+  // The directions of the grid's axes in space, where the option align has turned the geometry.
+  [[nodiscard]] virtual std::optional<std::array<Vec3, 3>> axes() const { return std::nullopt; }
   // What the input knows exactly of its surfaces. Stays usable when the source is gone.
   [[nodiscard]] virtual ExactSurface exact_surface() const { return {}; }
   // The smooth surfaces, curves and corners of faceted input; null where there are no facets.

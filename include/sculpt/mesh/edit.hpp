@@ -27,6 +27,10 @@ std::vector<LocalId> drop_unused_nodes(HexMesh& mesh);
 // on images are the period away from their homes, and no longer the period rounded to the quantum.
 void transform(HexMesh& mesh, const Vec3& scale, const Vec3& translate);
 
+// Collective. Turns the mesh, which has no exterior and is not periodic, about the origin: a point p comes to
+// p.x axes[0] + p.y axes[1] + p.z axes[2].
+void turn(HexMesh& mesh, const std::array<Vec3, 3>& axes);
+
 // Collective. Takes away hexes (remove: per local hex, 1 = by its owner) and the nodes that no hex uses any
 // more; ids stay. The exterior is no more than it was: faces that come to light
 // are no part of it. Answers with the new index of each old hex, kNone = removed.

@@ -11,7 +11,7 @@
 namespace sculpt {
 namespace {
 
-constexpr double kTolerance = 1e-9;  // of the size; of sines
+constexpr double kTolerance = 1e-9;   // of the size; of sines
 
 struct Face {
   Vec3 normal;                // outward unit vector

@@ -89,9 +89,15 @@ void FacetPatch::look(const FacetTree& tree, const Box& box) {
   box_ = box;
   bounds_ = tree.bounds();
   tree.find(box, found_);
-  facets_.clear();
-  for (const LocalId f : found_) facets_.push_back(tree.facet(f));
   start_ = odd_point(box);
+  facets_.clear();
+  for (auto& crossings : beside_) crossings.clear();
+  for (const LocalId f : found_) {
+    facets_.push_back(tree.facet(f));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (const auto c = cross_line(facets_.back(), axis, start_[(axis + 1) % 3], start_[(axis + 2) % 3]))
+        beside_[axis].push_back(*c);
+  }
   winding_ = tree.winding(start_);
 }
 
@@ -130,11 +136,10 @@ void FacetPatch::chords(std::size_t axis, double u, std::span<const double> v, C
   const std::size_t axis_u = (axis + 1) % 3, axis_v = (axis + 2) % 3;
   // To the row, then along it, and from there along each line.
   int winding = winding_;
+  for (const Crossing& c : beside_[axis_u]) winding += change(c, start_[axis_u], u);
   std::vector<PlaneCut> cuts;
   std::vector<Crossing> beside;
   for (const Triangle& f : facets_) {
-    if (const auto c = cross_line(f, axis_u, start_[axis_v], start_[axis]))
-      winding += change(*c, start_[axis_u], u);
     if (const auto c = cut(f, axis, u)) {
       cuts.push_back(*c);
       if (const auto b = cross_t(*c, start_[axis])) beside.push_back(*b);

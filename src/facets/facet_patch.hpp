@@ -1,5 +1,6 @@
 #pragma once
 // The facets of a solid within a box, as the solid's Shape there.
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -33,8 +34,9 @@ class FacetPatch final : public Shape {
   Box box_, bounds_;
   std::vector<LocalId> found_;
   std::vector<Triangle> facets_;
-  Vec3 start_;       // a point of the box
-  int winding_ = 0;  // there
+  std::array<std::vector<Crossing>, 3> beside_;  // along each axis, on the line through start_
+  Vec3 start_;                                   // a point of the box
+  int winding_ = 0;                              // there
 };
 
 }  // namespace sculpt

@@ -87,6 +87,7 @@ Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages&
   for (const std::string& idle : idle_grid_options(deck)) log.line("WARNING: {}", idle);
   if (has_input_mesh(deck)) return read_unstructured(comm, deck, log, stages);
   const auto source = open_source(comm, deck, log, std::nullopt);
+  if (has_shapes(deck)) stages.end("read geometry");
   return read_on_grid(comm, deck, *source, log, stages);
 }
 

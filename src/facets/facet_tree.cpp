@@ -254,12 +254,16 @@ std::int32_t FacetTree::winding_of_leaf(std::size_t node, const Box& box) const 
   return winding;
 }
 
-// Lines in different directions do not all pass the same hole.
+// Along the three axes by the shorter way out; where holes make them disagree, by the longer ways as well.
 int FacetTree::winding_by_lines(const Vec3& p) const {
   std::array<int, 6> along{};
-  for (std::size_t axis = 0; axis < 3; ++axis) along[axis] = ahead(0, cube_, axis, p, true);
+  const auto look = [&](std::size_t axis, bool shorter) {
+    const bool forward = (2 * p[axis] > cube_.lo[axis] + cube_.hi[axis]) == shorter;
+    return ahead(0, cube_, axis, p, forward);
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) along[axis] = look(axis, true);
   if (along[0] == along[1] && along[1] == along[2]) return along[0];
-  for (std::size_t axis = 0; axis < 3; ++axis) along[3 + axis] = ahead(0, cube_, axis, p, false);
+  for (std::size_t axis = 0; axis < 3; ++axis) along[3 + axis] = look(axis, false);
   std::sort(along.begin(), along.end());
   return along[2];
 }

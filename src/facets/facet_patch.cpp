@@ -20,22 +20,23 @@ struct Piece {
 };
 
 // Leaves the crossings between lo and hi, ascending.
-void keep_between(std::vector<Crossing>& crossings, double lo, double hi) {
+void keep_between(std::vector<FacetCrossing>& crossings, double lo, double hi) {
   crossings.erase(std::remove_if(crossings.begin(), crossings.end(),
-                                 [&](const Crossing& c) { return !(lo < c.t && c.t < hi); }),
+                                 [&](const FacetCrossing& c) { return !(lo < c.t && c.t < hi); }),
                   crossings.end());
-  std::sort(crossings.begin(), crossings.end(),
-            [](const Crossing& a, const Crossing& b) { return a.t != b.t ? a.t < b.t : a.exit < b.exit; });
+  std::sort(crossings.begin(), crossings.end(), [](const FacetCrossing& a, const FacetCrossing& b) {
+    return a.t != b.t ? a.t < b.t : a.exit < b.exit;
+  });
 }
 
 // The pieces of one line between lo and hi whose winding number, `winding` at t = `from`, is positive.
-void add_pieces(std::vector<Crossing>& crossings, double from, int winding, const Piece& whole,
+void add_pieces(std::vector<FacetCrossing>& crossings, double from, int winding, const Piece& whole,
                 std::vector<Piece>& pieces) {
   const auto [line, lo, hi] = whole;
   keep_between(crossings, lo, hi);
-  for (const Crossing& c : crossings) winding += change(c, from, lo);
+  for (const FacetCrossing& c : crossings) winding += change(c, from, lo);
   double start = lo;
-  for (const Crossing& c : crossings) {
+  for (const FacetCrossing& c : crossings) {
     const bool was_inside = winding > 0;
     winding -= c.exit;
     const bool is_inside = winding > 0;
@@ -146,9 +147,9 @@ void FacetPatch::visit_lines(std::size_t axis, double u, std::span<const double>
   const std::size_t axis_u = (axis + 1) % 3, axis_v = (axis + 2) % 3;
   // To the row, then along it, and from there along each line.
   int winding = winding_;
-  for (const Crossing& c : beside_[axis_u]) winding += change(c, start_[axis_u], u);
+  for (const FacetCrossing& c : beside_[axis_u]) winding += change(c, start_[axis_u], u);
   std::vector<PlaneCut> cuts;
-  std::vector<Crossing> beside, crossings;
+  std::vector<FacetCrossing> beside, crossings;
   for (const Triangle& f : facets_)
     if (const auto c = cut(f, axis, u)) {
       cuts.push_back(*c);
@@ -156,7 +157,7 @@ void FacetPatch::visit_lines(std::size_t axis, double u, std::span<const double>
     }
   for (std::size_t l = 0; l < v.size(); ++l) {
     int here = winding;
-    for (const Crossing& c : beside) here += change(c, start_[axis_v], v[l]);
+    for (const FacetCrossing& c : beside) here += change(c, start_[axis_v], v[l]);
     crossings.clear();
     for (const PlaneCut& c : cuts)
       if (const auto crossing = cross_v(c, v[l])) crossings.push_back(*crossing);
@@ -166,7 +167,7 @@ void FacetPatch::visit_lines(std::size_t axis, double u, std::span<const double>
 
 void FacetPatch::chords(std::size_t axis, double u, std::span<const double> v, ChordRow& row) const {
   std::vector<Piece> pieces;
-  visit_lines(axis, u, v, [&](std::size_t l, std::vector<Crossing>& crossings, int winding) {
+  visit_lines(axis, u, v, [&](std::size_t l, std::vector<FacetCrossing>& crossings, int winding) {
     add_pieces(crossings, start_[axis], winding, {l, box_.lo[axis], box_.hi[axis]}, pieces);
   });
   add_layers(pieces, v.size(), row);
@@ -182,11 +183,11 @@ bool FacetPatch::overlaps_itself() const {
   for (std::size_t l = 0; l < kLines; ++l) z[l] = at(2, l);
   bool overlaps = false;
   for (std::size_t row = 0; row < kLines && !overlaps; ++row)
-    visit_lines(0, at(1, row), z, [&](std::size_t, std::vector<Crossing>& crossings, int winding) {
+    visit_lines(0, at(1, row), z, [&](std::size_t, std::vector<FacetCrossing>& crossings, int winding) {
       keep_between(crossings, box_.lo[0], box_.hi[0]);
-      for (const Crossing& c : crossings) winding += change(c, start_[0], box_.lo[0]);
+      for (const FacetCrossing& c : crossings) winding += change(c, start_[0], box_.lo[0]);
       overlaps = overlaps || winding < 0 || winding > 1;
-      for (const Crossing& c : crossings) {
+      for (const FacetCrossing& c : crossings) {
         winding -= c.exit;
         overlaps = overlaps || winding < 0 || winding > 1;
       }
@@ -204,13 +205,14 @@ int FacetPatch::change_along(const Vec3& from, const Vec3& to) const {
   const std::size_t axis = longest_axis(way);
   if (!(std::fabs(way[axis]) > 0)) return 0;
   int sum = 0;
-  cross_all(facets_, axis, from, way, [&](const Crossing& c) { sum += change(c, from[axis], to[axis]); });
+  cross_all(facets_, axis, from, way,
+            [&](const FacetCrossing& c) { sum += change(c, from[axis], to[axis]); });
   return sum;
 }
 
 void FacetPatch::line_chords(std::span<const Vec3> from, std::span<const Vec3> step, ChordRow& row) const {
   std::vector<Piece> pieces;
-  std::vector<Crossing> crossings;
+  std::vector<FacetCrossing> crossings;
   Vec3 last = start_;
   int winding = winding_;
   for (std::size_t l = 0; l < from.size(); ++l) {
@@ -221,7 +223,7 @@ void FacetPatch::line_chords(std::span<const Vec3> from, std::span<const Vec3> s
     last = odd;
     crossings.clear();
     const int sense = step[l][axis] > 0 ? 1 : -1;
-    cross_all(facets_, axis, from[l], step[l], [&](const Crossing& c) {
+    cross_all(facets_, axis, from[l], step[l], [&](const FacetCrossing& c) {
       crossings.push_back({(c.t - from[l][axis]) / step[l][axis], sense * c.exit});
     });
     add_pieces(crossings, kOddShare, winding, {l, 0, 1}, pieces);

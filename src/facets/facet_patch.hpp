@@ -40,9 +40,9 @@ class FacetPatch final : public Shape {
   Box box_, bounds_;
   std::vector<LocalId> found_;
   std::vector<Triangle> facets_;
-  std::array<std::vector<Crossing>, 3> beside_;  // along each axis, on the line through start_
-  Vec3 start_;                                   // a point of the box
-  int winding_ = 0;                              // there
+  std::array<std::vector<FacetCrossing>, 3> beside_;  // along each axis, on the line through start_
+  Vec3 start_;                                        // a point of the box
+  int winding_ = 0;                                   // there
 };
 
 }  // namespace sculpt

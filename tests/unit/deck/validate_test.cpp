@@ -66,7 +66,7 @@ scale = 40)"),
 TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
   EXPECT_EQ(verdict(kSpn + "volfrac_file = v"),
             "option 'volfrac_file' (line 6 of deck.i) is not supported yet");
-  EXPECT_EQ(verdict("stl_file = a.stl"), "option 'stl_file' (line 2 of deck.i) is not supported yet");
+  EXPECT_EQ(verdict("input_stitch = a.st"), "option 'input_stitch' (line 2 of deck.i) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "periodic_axis = z"),
             "option 'periodic_axis' (line 6 of deck.i) is not supported yet");
   const CommandLine line = parse_command_line(std::vector<std::string>{"-cs", "0.5"}, read_deck_file);

@@ -140,7 +140,7 @@ TEST(OpenSolids, NamesAllFilesThatAreMissing) {
   EXPECT_TRUE(error.starts_with("d.diatom, line 7: cannot open 23 of 23 STL files: 'missing_0.stl', "))
       << error;
   EXPECT_TRUE(error.ends_with("'missing_19.stl' and 3 more")) << error;
-  EXPECT_EQ(error_of({files[2]}), "d.diatom, line 7: cannot open 'missing_2.stl': no such file");
+  EXPECT_EQ(error_of({files[2]}), "d.diatom, line 7: cannot open 'missing_2.stl': No such file or directory");
 }
 
 TEST(OpenSolids, FilesWithoutFacetsAreNoShapes) {

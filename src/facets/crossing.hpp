@@ -42,32 +42,32 @@ inline std::optional<PlaneCut> cut(const Triangle& facet, std::size_t axis, doub
 }
 
 // A crossing of a line: its place, and 1 where the line leaves the solid, -1 where it enters.
-struct Crossing {
+struct FacetCrossing {
   double t;
   int exit;
 };
 
 // With the line v of the plane.
-inline std::optional<Crossing> cross_v(const PlaneCut& c, double v) {
+inline std::optional<FacetCrossing> cross_v(const PlaneCut& c, double v) {
   const bool in_below = c.v_in <= v, out_below = c.v_out <= v;
   if (in_below == out_below) return std::nullopt;
   const double s = in_below ? (v - c.v_in) / (c.v_out - c.v_in) : (v - c.v_out) / (c.v_in - c.v_out);
   const double t = in_below ? c.t_in + s * (c.t_out - c.t_in) : c.t_out + s * (c.t_in - c.t_out);
-  return Crossing{t, in_below ? 1 : -1};
+  return FacetCrossing{t, in_below ? 1 : -1};
 }
 
 // With the line t of the plane, along which v grows.
-inline std::optional<Crossing> cross_t(const PlaneCut& c, double t) {
+inline std::optional<FacetCrossing> cross_t(const PlaneCut& c, double t) {
   return cross_v({c.t_out, c.v_out, c.t_in, c.v_in}, t);
 }
 
-inline std::optional<Crossing> cross_line(const Triangle& facet, std::size_t axis, double u, double v) {
+inline std::optional<FacetCrossing> cross_line(const Triangle& facet, std::size_t axis, double u, double v) {
   const std::optional<PlaneCut> c = cut(facet, axis, u);
   return c ? cross_v(*c, v) : std::nullopt;
 }
 
 // What the winding number grows by on the way from a to b: leaving the solid takes one away.
-inline int change(const Crossing& c, double a, double b) {
+inline int change(const FacetCrossing& c, double a, double b) {
   if (a < c.t && c.t <= b) return -c.exit;
   return b < c.t && c.t <= a ? c.exit : 0;
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "facets/facet_box.hpp"
+#include "facets/facet_share.hpp"
 
 namespace sculpt {
 namespace {
@@ -18,18 +19,24 @@ struct Piece {
   double lo, hi;
 };
 
+// Leaves the crossings between lo and hi, ascending.
+void keep_between(std::vector<FacetCrossing>& crossings, double lo, double hi) {
+  crossings.erase(std::remove_if(crossings.begin(), crossings.end(),
+                                 [&](const FacetCrossing& c) { return !(lo < c.t && c.t < hi); }),
+                  crossings.end());
+  std::sort(crossings.begin(), crossings.end(), [](const FacetCrossing& a, const FacetCrossing& b) {
+    return a.t != b.t ? a.t < b.t : a.exit < b.exit;
+  });
+}
+
 // The pieces of one line between lo and hi whose winding number, `winding` at t = `from`, is positive.
-void add_pieces(std::vector<Crossing>& crossings, double from, int winding, const Piece& whole,
+void add_pieces(std::vector<FacetCrossing>& crossings, double from, int winding, const Piece& whole,
                 std::vector<Piece>& pieces) {
   const auto [line, lo, hi] = whole;
-  crossings.erase(std::remove_if(crossings.begin(), crossings.end(),
-                                 [&](const Crossing& c) { return !(lo < c.t && c.t < hi); }),
-                  crossings.end());
-  std::sort(crossings.begin(), crossings.end(),
-            [](const Crossing& a, const Crossing& b) { return a.t != b.t ? a.t < b.t : a.exit < b.exit; });
-  for (const Crossing& c : crossings) winding += change(c, from, lo);
+  keep_between(crossings, lo, hi);
+  for (const FacetCrossing& c : crossings) winding += change(c, from, lo);
   double start = lo;
-  for (const Crossing& c : crossings) {
+  for (const FacetCrossing& c : crossings) {
     const bool was_inside = winding > 0;
     winding -= c.exit;
     const bool is_inside = winding > 0;
@@ -89,9 +96,15 @@ void FacetPatch::look(const FacetTree& tree, const Box& box) {
   box_ = box;
   bounds_ = tree.bounds();
   tree.find(box, found_);
-  facets_.clear();
-  for (const LocalId f : found_) facets_.push_back(tree.facet(f));
   start_ = odd_point(box);
+  facets_.clear();
+  for (auto& crossings : beside_) crossings.clear();
+  for (const LocalId f : found_) {
+    facets_.push_back(tree.facet(f));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (const auto c = cross_line(facets_.back(), axis, start_[(axis + 1) % 3], start_[(axis + 2) % 3]))
+        beside_[axis].push_back(*c);
+  }
   winding_ = tree.winding(start_);
 }
 
@@ -126,31 +139,65 @@ std::size_t FacetPatch::steepest_axis(const Vec3&) const {
   return longest_axis(area);
 }
 
-void FacetPatch::chords(std::size_t axis, double u, std::span<const double> v, ChordRow& row) const {
+// Calls visit(l, crossings, winding) for the lines v[l]: all crossings, and the number where the line passes
+// the start.
+template <class Visit>
+void FacetPatch::visit_lines(std::size_t axis, double u, std::span<const double> v,
+                             const Visit& visit) const {
   const std::size_t axis_u = (axis + 1) % 3, axis_v = (axis + 2) % 3;
   // To the row, then along it, and from there along each line.
   int winding = winding_;
+  for (const FacetCrossing& c : beside_[axis_u]) winding += change(c, start_[axis_u], u);
   std::vector<PlaneCut> cuts;
-  std::vector<Crossing> beside;
-  for (const Triangle& f : facets_) {
-    if (const auto c = cross_line(f, axis_u, start_[axis_v], start_[axis]))
-      winding += change(*c, start_[axis_u], u);
+  std::vector<FacetCrossing> beside, crossings;
+  for (const Triangle& f : facets_)
     if (const auto c = cut(f, axis, u)) {
       cuts.push_back(*c);
       if (const auto b = cross_t(*c, start_[axis])) beside.push_back(*b);
     }
-  }
-  std::vector<Piece> pieces;
-  std::vector<Crossing> crossings;
   for (std::size_t l = 0; l < v.size(); ++l) {
     int here = winding;
-    for (const Crossing& c : beside) here += change(c, start_[axis_v], v[l]);
+    for (const FacetCrossing& c : beside) here += change(c, start_[axis_v], v[l]);
     crossings.clear();
     for (const PlaneCut& c : cuts)
       if (const auto crossing = cross_v(c, v[l])) crossings.push_back(*crossing);
-    add_pieces(crossings, start_[axis], here, {l, box_.lo[axis], box_.hi[axis]}, pieces);
+    visit(l, crossings, here);
   }
+}
+
+void FacetPatch::chords(std::size_t axis, double u, std::span<const double> v, ChordRow& row) const {
+  std::vector<Piece> pieces;
+  visit_lines(axis, u, v, [&](std::size_t l, std::vector<FacetCrossing>& crossings, int winding) {
+    add_pieces(crossings, start_[axis], winding, {l, box_.lo[axis], box_.hi[axis]}, pieces);
+  });
   add_layers(pieces, v.size(), row);
+}
+
+// Whether the number is other than 0 and 1 somewhere, as lines show it.
+bool FacetPatch::overlaps_itself() const {
+  constexpr std::size_t kLines = 16;
+  const auto at = [&](std::size_t axis, std::size_t l) {
+    return box_.lo[axis] + (static_cast<double>(l) + 0.5) / kLines * (box_.hi[axis] - box_.lo[axis]);
+  };
+  std::array<double, kLines> z{};
+  for (std::size_t l = 0; l < kLines; ++l) z[l] = at(2, l);
+  bool overlaps = false;
+  for (std::size_t row = 0; row < kLines && !overlaps; ++row)
+    visit_lines(0, at(1, row), z, [&](std::size_t, std::vector<FacetCrossing>& crossings, int winding) {
+      keep_between(crossings, box_.lo[0], box_.hi[0]);
+      for (const FacetCrossing& c : crossings) winding += change(c, start_[0], box_.lo[0]);
+      overlaps = overlaps || winding < 0 || winding > 1;
+      for (const FacetCrossing& c : crossings) {
+        winding -= c.exit;
+        overlaps = overlaps || winding < 0 || winding > 1;
+      }
+    });
+  return overlaps;
+}
+
+std::optional<double> FacetPatch::share_of(const Box& box) const {
+  if (!(box.lo == box_.lo && box.hi == box_.hi) || overlaps_itself()) return std::nullopt;
+  return std::clamp(mean_winding(facets_, box_, start_, winding_), 0.0, 1.0);
 }
 
 int FacetPatch::change_along(const Vec3& from, const Vec3& to) const {
@@ -158,13 +205,14 @@ int FacetPatch::change_along(const Vec3& from, const Vec3& to) const {
   const std::size_t axis = longest_axis(way);
   if (!(std::fabs(way[axis]) > 0)) return 0;
   int sum = 0;
-  cross_all(facets_, axis, from, way, [&](const Crossing& c) { sum += change(c, from[axis], to[axis]); });
+  cross_all(facets_, axis, from, way,
+            [&](const FacetCrossing& c) { sum += change(c, from[axis], to[axis]); });
   return sum;
 }
 
 void FacetPatch::line_chords(std::span<const Vec3> from, std::span<const Vec3> step, ChordRow& row) const {
   std::vector<Piece> pieces;
-  std::vector<Crossing> crossings;
+  std::vector<FacetCrossing> crossings;
   Vec3 last = start_;
   int winding = winding_;
   for (std::size_t l = 0; l < from.size(); ++l) {
@@ -175,7 +223,7 @@ void FacetPatch::line_chords(std::span<const Vec3> from, std::span<const Vec3> s
     last = odd;
     crossings.clear();
     const int sense = step[l][axis] > 0 ? 1 : -1;
-    cross_all(facets_, axis, from[l], step[l], [&](const Crossing& c) {
+    cross_all(facets_, axis, from[l], step[l], [&](const FacetCrossing& c) {
       crossings.push_back({(c.t - from[l][axis]) / step[l][axis], sense * c.exit});
     });
     add_pieces(crossings, kOddShare, winding, {l, 0, 1}, pieces);

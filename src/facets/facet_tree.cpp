@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -169,13 +170,27 @@ void FacetTree::divide(std::size_t node, const Box& box, std::vector<LocalId>& f
   nodes_[node] = {static_cast<LocalId>(first), kInner};
   nodes_.resize(first + 8);
   const double slack = kSlack * (cube_.hi.x - cube_.lo.x);
-  std::array<std::vector<LocalId>, 8> of_child;
+  const Vec3 middle = 0.5 * (box.lo + box.hi);
+  std::array<Box, 8> grown;
   for (std::size_t c = 0; c < 8; ++c) {
-    Box grown = child_of(box, c);
-    grown.lo = grown.lo - Vec3{slack, slack, slack};
-    grown.hi = grown.hi + Vec3{slack, slack, slack};
-    for (const LocalId f : facets)
-      if (reaches(facet(f), grown)) of_child[c].push_back(f);
+    grown[c] = child_of(box, c);
+    grown[c].lo = grown[c].lo - Vec3{slack, slack, slack};
+    grown[c].hi = grown[c].hi + Vec3{slack, slack, slack};
+  }
+  std::array<std::vector<LocalId>, 8> of_child;
+  for (const LocalId f : facets) {
+    const Triangle triangle = facet(f);
+    // By its bounds: bit c of those children that it may reach.
+    unsigned may = 0xff;
+    for (std::size_t d = 0; d < 3; ++d) {
+      constexpr std::array<unsigned, 3> kHigh{0xaa, 0xcc, 0xf0};
+      const double x = triangle[0][d], y = triangle[1][d], z = triangle[2][d];
+      if (std::min(x, std::min(y, z)) > middle[d] + slack) may &= kHigh[d];
+      if (std::max(x, std::max(y, z)) < middle[d] - slack) may &= ~kHigh[d];
+    }
+    for (std::size_t c = 0; c < 8; ++c)
+      if ((may >> c & 1U) != 0 && (std::has_single_bit(may) || reaches(triangle, grown[c])))
+        of_child[c].push_back(f);
   }
   facets = {};
   for (std::size_t c = 0; c < 8; ++c) divide(first + c, child_of(box, c), of_child[c], depth + 1);
@@ -239,12 +254,16 @@ std::int32_t FacetTree::winding_of_leaf(std::size_t node, const Box& box) const 
   return winding;
 }
 
-// Lines in different directions do not all pass the same hole.
+// Along the three axes by the shorter way out; where holes make them disagree, by the longer ways as well.
 int FacetTree::winding_by_lines(const Vec3& p) const {
   std::array<int, 6> along{};
-  for (std::size_t axis = 0; axis < 3; ++axis) along[axis] = ahead(0, cube_, axis, p, true);
+  const auto look = [&](std::size_t axis, bool shorter) {
+    const bool forward = (2 * p[axis] > cube_.lo[axis] + cube_.hi[axis]) == shorter;
+    return ahead(0, cube_, axis, p, forward);
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) along[axis] = look(axis, true);
   if (along[0] == along[1] && along[1] == along[2]) return along[0];
-  for (std::size_t axis = 0; axis < 3; ++axis) along[3 + axis] = ahead(0, cube_, axis, p, false);
+  for (std::size_t axis = 0; axis < 3; ++axis) along[3 + axis] = look(axis, false);
   std::sort(along.begin(), along.end());
   return along[2];
 }

@@ -51,6 +51,8 @@ void CellMeter::measure(const Box& cell, std::span<const std::int32_t> candidate
       // The error of the midpoint rule falls with the square of the number of lines: two numbers cancel it.
       sample(cell, axis, 16, 4.0 / 3);
       sample(cell, axis, 8, -1.0 / 3);
+    } else if (const auto share = share_of_one(cell)) {
+      covered_[0] = *share;
     } else {
       sample(cell, axis, kMostLines, 1);
     }
@@ -119,6 +121,11 @@ bool CellMeter::is_gentle(const Box& cell, const Steepest& steepest) const {
   for (std::size_t s = 0; s + (filled_ ? 1 : 0) < reaching_.size(); ++s)
     if (steepest(shape(s)) != axis || !shape(s).is_gentle(cell)) return false;
   return true;
+}
+
+// The exact share of the only shape that counts.
+std::optional<double> CellMeter::share_of_one(const Box& cell) const {
+  return reaching_.size() == 1 ? shape(0).share_of(cell) : std::nullopt;
 }
 
 // Gets the shapes that count ready to be asked for their chords.

@@ -66,6 +66,7 @@ class CellMeter {
   static void add_common(const ChordRow& a, const ChordRow& b, double sign, const Piece& piece, Row& sum);
   void share_line(const Piece& whole, std::size_t column);
   [[nodiscard]] double take(const Piece& chord);
+  [[nodiscard]] std::optional<double> share_of_one(const Box& cell) const;
   void look_into(const Box& bounds);
   void append(Fractions& fractions);
 

@@ -9,7 +9,7 @@
 namespace sculpt {
 namespace {
 
-constexpr std::int64_t kPoints = 48;  // per axis
+constexpr std::int64_t kPoints = 96;  // per axis
 constexpr double kSame = 0.01;        // moments that differ by less, relative to the largest, are one
 
 using Axes = std::array<Vec3, 3>;

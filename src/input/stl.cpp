@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 #include "input/geometry_grid.hpp"
@@ -20,14 +22,18 @@ void refuse_missing(const std::vector<StlFile>& files) {
   std::string names;
   std::size_t missing = 0;
   const StlFile* first = nullptr;
+  const char* reason = "";
   for (const StlFile& file : files) {
     if (::access(file.path.c_str(), R_OK) == 0) continue;
-    if (first == nullptr) first = &file;
+    if (first == nullptr) {
+      first = &file;
+      reason = std::strerror(errno);
+    }
     if (missing++ < kMostNamed) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", file.path);
   }
   if (missing == 0) return;
   if (missing > kMostNamed) names += fmt::format(" and {} more", missing - kMostNamed);
-  if (missing == 1) throw Error(fmt::format("{}: cannot open {}: no such file", first->named_by, names));
+  if (missing == 1) throw Error(fmt::format("{}: cannot open {}: {}", first->named_by, names, reason));
   throw Error(
       fmt::format("{}: cannot open {} of {} STL files: {}", first->named_by, missing, files.size(), names));
 }

@@ -45,6 +45,11 @@ class Shape {
     (void)p;
     return std::nullopt;
   }
+  // The share of the box that lies in the solid, where the shape can tell it exactly.
+  [[nodiscard]] virtual std::optional<double> share_of(const Box& box) const {
+    (void)box;
+    return std::nullopt;
+  }
   // A solid that is the same within the box and tells its chords there without a search: this one, or one
   // that is put into `storage` (which may hold what an earlier call has put there).
   [[nodiscard]] virtual const Shape& within(const Box& box, std::unique_ptr<Shape>& storage) const {

@@ -163,6 +163,22 @@ TEST(FacetedSolid, IsGentleWhereItTurnsLittle) {
   EXPECT_EQ(cube.steepest_axis({0.1, 0.9, 0.2}), 1U);
 }
 
+TEST(FacetedSolid, KnowsSharesExactlyButOfOverlaps) {
+  const Box box{{-0.4, -0.3, -0.2}, {0.4, 0.5, 0.4}};
+  const Facets hollow =
+      box_facets({-1, -1, -1}, {0.1, 0.2, 0.3}) + turned(box_facets({-0.3, -0.1, -0.1}, {-0.2, 0.1, 0.2}));
+  std::unique_ptr<Shape> storage;
+  EXPECT_NEAR(FacetedSolid(mesh_of(hollow)).within(box, storage).share_of(box).value(),
+              (0.5 * 0.5 * 0.5 - 0.1 * 0.2 * 0.3) / (0.8 * 0.8 * 0.6), 1e-13);
+  const Facets overlapping = hollow + box_facets({0, 0, 0}, {1, 1, 1});
+  EXPECT_FALSE(FacetedSolid(mesh_of(overlapping)).within(box, storage).share_of(box).has_value());
+  // An octahedron about a corner of the box: an eighth of it lies in the box.
+  const Facets octahedron = ball_facets(4, [](const Vec3&) { return 0.7; });
+  const Box octant{{0, 0, 0}, {1, 2, 3}};
+  EXPECT_NEAR(FacetedSolid(mesh_of(octahedron)).within(octant, storage).share_of(octant).value(),
+              0.7 * 0.7 * 0.7 / 6 / 6, 1e-13);
+}
+
 // A part answers like the whole within its region, even where the surface leaks.
 TEST(FacetedSolid, PartsAnswerLikeTheWhole) {
   Facets facets = potato(40);

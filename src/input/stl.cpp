@@ -38,7 +38,9 @@ FacetMesh read_facets(const StlFile& file) {
   const TextFile text_file(file.path, file.named_by);
   std::string text(static_cast<std::size_t>(text_file.size()), '\0');
   text_file.read(0, text);
-  return parse_stl(text, file.path);
+  FacetMesh mesh = parse_stl(text, file.path);
+  for (Vec3& vertex : mesh.vertices) vertex = file.placement.placed(vertex);
+  return mesh;
 }
 
 void warn(const Log& log, const std::string& path, const Defects& defects, const char* what) {

@@ -4,14 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "input/placement.hpp"
 #include "sculpt/facets/facet_mesh.hpp"
 #include "sculpt/input/material_source.hpp"
 
 namespace sculpt {
 
-// A file that is to be read, and what names it, for messages: "stl_file" or "deck.diatom, line 7".
+// A file that is to be read, what names it, for messages ("stl_file" or "deck.diatom, line 7"), and where its
+// solid goes.
 struct StlFile {
   std::string path, named_by;
+  Placement placement{};
 };
 
 struct StlSolid {

@@ -16,8 +16,9 @@ namespace {
 
 // What CTH says about the state of a material: names that take numbers, which make no difference to a mesh.
 const KeywordNames& states() {
-  static const KeywordNames names{"velocity", "xvelocity", "yvelocity", "zvelocity", "temperature", "pressure",
-                                  "density",  "energy",    "sie",       "numsub",    "iterations"};
+  static const KeywordNames names{"velocity",    "xvelocity", "yvelocity", "zvelocity",
+                                  "temperature", "pressure",  "density",   "energy",
+                                  "sie",         "numsub",    "iterations"};
   return names;
 }
 
@@ -31,7 +32,7 @@ const KeywordNames& flat_shapes() {
 struct Body {
   const ShapeKind* kind = nullptr;
   std::int64_t line = 0;
-  ShapeValues values;  // per parameter of the kind
+  ShapeValues values;                  // per parameter of the kind
   std::vector<std::int64_t> given_at;  // line of each parameter, 0: not given
   std::string stl_path;
   Placement placement;
@@ -142,14 +143,14 @@ class DiatomParser {
 
   const ShapeKind& parse_kind(const std::string& block) {
     const DiatomWord& word = words_.take(fmt::format("the name of a shape after '{}'", block));
+    for (const ShapeKind& kind : shape_kinds())
+      if (is_keyword(word, kind.names)) return kind;
     if (is_keyword(word, flat_shapes()))
       words_.fail_at(word.line, fmt::format("{} {} is two-dimensional, expected a solid: {}", block,
                                             quoted(word.text), listed(shape_names())));
-    for (const ShapeKind& kind : shape_kinds())
-      if (is_keyword(word, kind.names)) return kind;
-    words_.fail_at(word.line, fmt::format("found shape {}, expected {}", quoted(word.text),
-                                          listed(shape_names())) +
-                                  did_you_mean(word.text, shape_names()));
+    words_.fail_at(word.line,
+                   fmt::format("found shape {}, expected {}", quoted(word.text), listed(shape_names())) +
+                       did_you_mean(word.text, shape_names()));
   }
 
   // The parameter that a word names or shortens.

@@ -114,24 +114,32 @@ struct Layout {
 Layout layout(ParameterKind kind) {
   switch (kind) {
     case kLength:
-    case kLengthOrZero: return {1, "1 number"};
-    case kPair: return {2, "2 numbers (the coordinates of a corner)"};
-    case kRadii: return {3, "3 numbers (the radii along x, y and z)"};
-    case kPlane: return {6, "6 numbers (a point and a direction outwards)"};
-    case kRotation: return {4, "4 or 7 numbers (degrees, a direction and perhaps a point of the axis)"};
-    case kScale: return {1, "1 number"};
-    case kFile: return {0, "the name of an STL file"};
+    case kLengthOrZero:
+      return {1, "1 number"};
+    case kPair:
+      return {2, "2 numbers (the coordinates of a corner)"};
+    case kRadii:
+      return {3, "3 numbers (the radii along x, y and z)"};
+    case kPlane:
+      return {6, "6 numbers (a point and a direction outwards)"};
+    case kRotation:
+      return {4, "4 or 7 numbers (degrees, a direction and perhaps a point of the axis)"};
+    case kScale:
+      return {1, "1 number"};
+    case kFile:
+      return {0, "the name of an STL file"};
     case kPoint:
     case kDirection:
-    case kTranslation: break;
+    case kTranslation:
+      break;
   }
   return {3, "3 numbers (x y z)"};
 }
 
 void expect_direction(std::string_view name, const Vec3& direction) {
   if (unit(direction) == Vec3{})
-    throw Error(fmt::format("found direction {:g} {:g} {:g} after '{}', expected one with a length", direction.x,
-                            direction.y, direction.z, name));
+    throw Error(fmt::format("found direction {:g} {:g} {:g} after '{}', expected one with a length",
+                            direction.x, direction.y, direction.z, name));
 }
 
 // One run of numbers of a parameter, in place.

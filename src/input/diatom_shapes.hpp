@@ -41,7 +41,7 @@ struct ShapeKind {
   KeywordNames names;
   std::vector<ShapeParameter> parameters;
   std::unique_ptr<Shape> (*make)(const ShapeValues&) = nullptr;  // null: an STL file
-  bool along_axes = false;  // its numbers cannot say that it is turned
+  bool along_axes = false;                                       // its numbers cannot say that it is turned
 };
 
 [[nodiscard]] std::span<const ShapeKind> shape_kinds();

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <set>
 
 #include "input/deck_grid.hpp"
 #include "input/shape_source.hpp"
@@ -20,8 +21,9 @@ void refuse_missing(const std::vector<StlFile>& files) {
   std::string names;
   std::size_t missing = 0;
   const StlFile* first = nullptr;
+  std::set<std::string> seen;
   for (const StlFile& file : files) {
-    if (::access(file.path.c_str(), R_OK) == 0) continue;
+    if (!seen.insert(file.path).second || ::access(file.path.c_str(), R_OK) == 0) continue;
     if (first == nullptr) first = &file;
     if (missing++ < kMostNamed) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", file.path);
   }
@@ -29,7 +31,7 @@ void refuse_missing(const std::vector<StlFile>& files) {
   if (missing > kMostNamed) names += fmt::format(" and {} more", missing - kMostNamed);
   if (missing == 1) throw Error(fmt::format("{}: cannot open {}: no such file", first->named_by, names));
   throw Error(
-      fmt::format("{}: cannot open {} of {} STL files: {}", first->named_by, missing, files.size(), names));
+      fmt::format("{}: cannot open {} of {} STL files: {}", first->named_by, missing, seen.size(), names));
 }
 
 FacetMesh read_facets(const StlFile& file) {

@@ -179,17 +179,23 @@ class DiatomParser {
                                             parameter.names[0], body.given_at[p]));
     body.given_at[p] = word.line;
     if (parameter.kind != ParameterKind::kFile) return parse_numbers(word, parameter, body.values[p]);
-    const DiatomWord& name = words_.take(expected_numbers(parameter.kind));
-    if (name.text.empty())
-      words_.fail_at(name.line, fmt::format("found '' after '{}', expected {}", parameter.names[0],
-                                            expected_numbers(parameter.kind)));
-    body.stl_path = name.text;
+    const bool follows = !words_.done() && words_.peek().line == word.line;
+    if (!follows || words_.peek().text.empty())
+      words_.fail_at(word.line,
+                     fmt::format("found {} after '{}', expected {}", follows ? "''" : "the end of the line",
+                                 parameter.names[0], expected_numbers(parameter.kind)));
+    body.stl_path = words_.take().text;
   }
 
   // Adds the numbers that follow the keyword.
   void parse_numbers(const DiatomWord& word, const ShapeParameter& parameter, std::vector<double>& numbers) {
     const std::size_t before = numbers.size();
     words_.take_numbers(numbers);
+    const std::size_t count = numbers.size() - before;
+    if (!takes(parameter.kind, count))
+      words_.fail_at(word.line, fmt::format("found {} number{} after '{}' and then {}, expected {}", count,
+                                            count == 1 ? "" : "s", parameter.names[0], words_.shown_next(),
+                                            expected_numbers(parameter.kind)));
     try {
       check_numbers(parameter.kind, parameter.names[0], std::span(numbers).subspan(before));
     } catch (const Error& error) {

@@ -170,14 +170,14 @@ std::span<const ShapeParameter> placing_parameters() {
 
 std::string_view expected_numbers(ParameterKind kind) { return layout(kind).expected; }
 
+bool takes(ParameterKind kind, std::size_t count) {
+  return count == layout(kind).count || (kind == kRotation && count == 7);
+}
+
 void check_numbers(ParameterKind kind, std::string_view name, std::span<const double> numbers) {
   for (const double number : numbers)
     if (!std::isfinite(number))
       throw Error(fmt::format("found {} after '{}', expected finite numbers", number, name));
-  const bool fits = numbers.size() == layout(kind).count || (kind == kRotation && numbers.size() == 7);
-  if (!fits)
-    throw Error(fmt::format("found {} number{} after '{}', expected {}", numbers.size(),
-                            numbers.size() == 1 ? "" : "s", name, expected_numbers(kind)));
   if (kind == kLength || kind == kRadii || kind == kScale)
     for (const double number : numbers)
       if (!(number > 0)) throw Error(fmt::format("found {} {}, expected a value > 0", name, number));

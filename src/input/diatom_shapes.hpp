@@ -48,9 +48,11 @@ struct ShapeKind {
 // How any shape may be placed; these may be repeated.
 [[nodiscard]] std::span<const ShapeParameter> placing_parameters();
 
+[[nodiscard]] bool takes(ParameterKind kind, std::size_t count);
 // "3 numbers (x y z)", for messages.
 [[nodiscard]] std::string_view expected_numbers(ParameterKind kind);
-// Throws Error, which says what was found and what is expected, when these are no numbers of that kind.
+// Throws Error, which says what was found and what is expected, when these, as many as the kind takes, are no
+// values of it.
 void check_numbers(ParameterKind kind, std::string_view name, std::span<const double> numbers);
 // What the checked numbers of a placing parameter do.
 [[nodiscard]] Placement placement_of(ParameterKind kind, std::span<const double> numbers);

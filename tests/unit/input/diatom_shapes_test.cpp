@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"revolution", "ce1 0 0 -1 ce2 0 0 1 p 0.3 0.2 p 0.8 0.2 p 0.8 1 p 0.3 1", kPi * 0.55 * 0.8},
         Case{"extrusion", "ce1 0 0 -0.5 ce2 0 0 0.5 u 1 0 0 p 0 0 p 1 0 p 1 0.4 p 0.4 0.4 p 0.4 1 p 0 1",
              0.64}),
-    [](const auto& info) { return std::string(info.param.shape); });
+    [](const auto& tested) { return std::string(tested.param.shape); });
 
 TEST(DiatomPlacing, AppliesTheTransformationsInTheirOrder) {
   const std::string cube = block("0 0 0", "1 0.5 0.25");

@@ -221,7 +221,7 @@ class DiatomParser {
     try {
       return {make_solid(*body.kind, body.values, placement)};
     } catch (const Error& error) {
-      words_.fail_at(body.line, fmt::format("{}: {}", body.kind->names[0], error.what()));
+      words_.fail_at(body.line, error.what());
     }
   }
 

@@ -183,7 +183,7 @@ TEST(Diatom, NamesTheLineOfAMistakeInASphere) {
   expect("center 0 nan 0\nradius 1\n", "line 5: found nan after 'center', expected finite numbers");
   expect("center 0 0 0\nradius inf\n", "line 6: found inf after 'radius', expected finite numbers");
   expect("center 0 0 0\nradius 1e60\n",
-         "line 4: sphere: found 1e+60, expected coordinates and lengths up to");
+         "line 4: found 1e+60, expected coordinates and lengths up to");
   expect("radius 1\n", "line 4: the sphere has no 'center', expected 'center' and 3 numbers (x y z)");
   expect("center 0 0 0\n", "line 4: the sphere has no 'radius', expected 'radius' and 1 number");
   expect("center 0 0 0\nradius 1\nr 2\n", "line 7: 'radius' is given twice, first in line 6");

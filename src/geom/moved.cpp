@@ -1,0 +1,92 @@
+#include <cmath>
+
+#include "sculpt/geom/solids.hpp"
+
+namespace sculpt {
+namespace {
+
+class Moved final : public Shape {
+ public:
+  Moved(std::unique_ptr<Shape> shape, const Frame& frame) : shape_(std::move(shape)), frame_(frame) {}
+
+  [[nodiscard]] Box bounds() const override {
+    const Box box = shape_->bounds();
+    const Vec3 half = 0.5 * (box.hi - box.lo), middle = outward(0.5 * (box.lo + box.hi));
+    Vec3 reach;
+    for (std::size_t d = 0; d < 3; ++d)
+      for (std::size_t a = 0; a < 3; ++a) reach[d] += std::fabs(frame_.axis[a][d]) * half[a];
+    return {middle - reach, middle + reach};
+  }
+  [[nodiscard]] bool contains(const Box& box) const override { return shape_->contains(around(box)); }
+  [[nodiscard]] bool misses(const Box& box) const override { return shape_->misses(around(box)); }
+  [[nodiscard]] bool is_gentle(const Box& box) const override { return shape_->is_gentle(around(box)); }
+  [[nodiscard]] bool has_edges(const Box& box) const override { return shape_->has_edges(around(box)); }
+
+  [[nodiscard]] std::size_t steepest_axis(const Vec3& point) const override {
+    const std::optional<Vec3> near = nearest_on_surface(point);
+    Vec3 normal = near ? *near - point : Vec3{};
+    const Box box = shape_->bounds();
+    if (largest(normal) < 1e-9 * norm(box.hi - box.lo))
+      normal = frame_.axis[shape_->steepest_axis(inward(point))];
+    std::size_t axis = 0;
+    for (std::size_t d = 1; d < 3; ++d)
+      if (std::fabs(normal[d]) > std::fabs(normal[axis])) axis = d;
+    return axis;
+  }
+
+  void chords(std::size_t axis, double u, std::span<const double> v, ChordRow& row) const override {
+    Vec3 step, from;
+    step[axis] = 1;
+    from[(axis + 1) % 3] = u;
+    std::vector<Vec3> starts;
+    starts.reserve(v.size());
+    for (const double w : v) {
+      from[(axis + 2) % 3] = w;
+      starts.push_back(inward(from));
+    }
+    shape_->line_chords(starts, std::vector<Vec3>(v.size(), turned_inward(step)), row);
+  }
+
+  void line_chords(std::span<const Vec3> from, std::span<const Vec3> step, ChordRow& row) const override {
+    std::vector<Vec3> starts, steps;
+    starts.reserve(from.size());
+    steps.reserve(step.size());
+    for (const Vec3& p : from) starts.push_back(inward(p));
+    for (const Vec3& s : step) steps.push_back(turned_inward(s));
+    shape_->line_chords(starts, steps, row);
+  }
+
+  [[nodiscard]] std::optional<Vec3> nearest_on_surface(const Vec3& p) const override {
+    const std::optional<Vec3> near = shape_->nearest_on_surface(inward(p));
+    if (!near) return std::nullopt;
+    return outward(*near);
+  }
+
+ private:
+  [[nodiscard]] Vec3 turned_inward(const Vec3& v) const {
+    return {dot(v, frame_.axis[0]), dot(v, frame_.axis[1]), dot(v, frame_.axis[2])};
+  }
+  [[nodiscard]] Vec3 inward(const Vec3& p) const { return turned_inward(p - frame_.origin); }
+  [[nodiscard]] Vec3 outward(const Vec3& p) const {
+    return frame_.origin + p.x * frame_.axis[0] + p.y * frame_.axis[1] + p.z * frame_.axis[2];
+  }
+  // The box of the shape that holds this one.
+  [[nodiscard]] Box around(const Box& box) const {
+    const Vec3 half = 0.5 * (box.hi - box.lo), middle = inward(0.5 * (box.lo + box.hi));
+    Vec3 reach;
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t d = 0; d < 3; ++d) reach[a] += std::fabs(frame_.axis[a][d]) * half[d];
+    return {middle - reach, middle + reach};
+  }
+
+  std::unique_ptr<Shape> shape_;
+  Frame frame_;
+};
+
+}  // namespace
+
+std::unique_ptr<Shape> moved(std::unique_ptr<Shape> shape, const Frame& frame) {
+  return std::make_unique<Moved>(std::move(shape), frame);
+}
+
+}  // namespace sculpt

@@ -52,7 +52,7 @@ TEST_F(BadDiatom, IsRefusedWithOneMessage) {
   };
   expect("insert circle\ncenter 0 0\nradius 1\nendinsert\n", {"s.diatom", "line 4", "'circle'", "'sphere'"});
   expect("insert box\np1 0 0 0\np2 1 1 nan\nendinsert\n", {"s.diatom", "line 6", "nan", "'p2'"});
-  expect("insert cone\nce1 0 0 0\nce2 0 0 0\nrad1 1\nrad2 0\nendinsert\n", {"s.diatom", "line 4: cone"});
+  expect("insert cone\nce1 0 0 0\nce2 0 0 0\nrad1 1\nrad2 0\nendinsert\n", {"s.diatom", "line 4: a cone"});
   expect("insert stl\nfile 'one.stl'\nendinsert\ninsert stl\nfile 'two.stl'\nendinsert\n",
          {"s.diatom", "line 4", "2 of 2 STL files", "'one.stl', 'two.stl'"});
 }

@@ -192,10 +192,10 @@ TEST(DiatomWarning, TellsPackagesThatFillNothing) {
   (void)open_source(Comm::self(), diatom_deck(file.path(), kCells, kHalfWidth), Log(true));
   const std::string out = testing::internal::GetCapturedStdout();
   EXPECT_TRUE(contains(out, "WARNING: " + file.path() +
-                                ", line 8: package 'p' fills nothing: it lies outside "
+                                ", line 9: package 'p' fills nothing: it lies outside "
                                 "the box of the grid\n"))
       << out;
-  EXPECT_TRUE(contains(out, "line 14: package 'p' fills nothing: it has no solid\n")) << out;
+  EXPECT_TRUE(contains(out, "line 16: package 'p' fills nothing: it has no solid\n")) << out;
   EXPECT_FALSE(contains(out, "line 2: ")) << out;
 }
 

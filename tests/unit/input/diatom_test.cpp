@@ -182,8 +182,7 @@ TEST(Diatom, NamesTheLineOfAMistakeInASphere) {
   expect("center 0 0 '0'\nradius 1\n", "line 5: found 2 numbers after 'center' and then '0', expected 3");
   expect("center 0 nan 0\nradius 1\n", "line 5: found nan after 'center', expected finite numbers");
   expect("center 0 0 0\nradius inf\n", "line 6: found inf after 'radius', expected finite numbers");
-  expect("center 0 0 0\nradius 1e60\n",
-         "line 4: found 1e+60, expected coordinates and lengths up to");
+  expect("center 0 0 0\nradius 1e60\n", "line 4: found 1e+60, expected coordinates and lengths up to");
   expect("radius 1\n", "line 4: the sphere has no 'center', expected 'center' and 3 numbers (x y z)");
   expect("center 0 0 0\n", "line 4: the sphere has no 'radius', expected 'radius' and 1 number");
   expect("center 0 0 0\nradius 1\nr 2\n", "line 7: 'radius' is given twice, first in line 6");
@@ -228,14 +227,17 @@ TEST(Diatom, NamesTheLineOfAMistakeInAShape) {
 
 TEST(Diatom, SolidsWithoutVolumeAreNamed) {
   const std::string zero = "0 0 0\n";
-  expect_error(insert_error("box", "p1 " + zero + "p2 1 0 1\n"), "line 4: box: ");
-  expect_error(insert_error("cylinder", "ce1 " + zero + "ce2 " + zero + "radius 1\n"), "line 4: cylinder: ");
-  expect_error(insert_error("tet", "p1 0 0 0\np2 1 0 0\np3 0 1 0\np4 1 1 0\n"), "line 4: tet: ");
-  expect_error(insert_error("planes", "plane 0 0 0 0 0 1\n"), "line 4: planes: ");
+  expect_error(insert_error("box", "p1 " + zero + "p2 1 0 1\n"), "line 4: a side of a box is 0");
+  expect_error(insert_error("cylinder", "ce1 " + zero + "ce2 " + zero + "radius 1\n"),
+               "line 4: a cylinder: both ends of its axis are (0 0 0)");
+  expect_error(insert_error("tet", "p1 0 0 0\np2 1 0 0\np3 0 1 0\np4 1 1 0\n"),
+               "line 4: the corners of a polyhedron lie in one plane");
+  expect_error(insert_error("planes", "plane 0 0 0 0 0 1\n"),
+               "line 4: 1 planes leave a way to infinity open");
   expect_error(insert_error("sphere",
                             "center 0 0 0 radius 1\ndelete cone\nce1 0 0 0 ce2 1 0 0\nr1 0 r2 0\n"
                             "enddelete\n"),
-               "line 6: cone: ");
+               "line 6: a cone has the radii 0 and 0");
 }
 
 TEST(Diatom, NamesTheLineOfAMistakeInABlock) {

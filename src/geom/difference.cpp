@@ -21,7 +21,7 @@ void take(const Interval& piece, std::size_t first, std::vector<Interval>& piece
 
 class Difference final : public Shape {
  public:
-  Difference(std::unique_ptr<Shape> from, std::vector<std::unique_ptr<Shape>> removed)
+  Difference(std::unique_ptr<Shape> from, std::vector<std::shared_ptr<const Shape>> removed)
       : from_(std::move(from)), removed_(std::move(removed)) {
     const Box box = bounds();
     margin_ = 1e-9 * largest(box.hi - box.lo);
@@ -126,13 +126,14 @@ class Difference final : public Shape {
   }
 
   std::unique_ptr<Shape> from_;
-  std::vector<std::unique_ptr<Shape>> removed_;
+  std::vector<std::shared_ptr<const Shape>> removed_;
   double margin_ = 0;  // length: nearer than this counts as touching
 };
 
 }  // namespace
 
-std::unique_ptr<Shape> difference(std::unique_ptr<Shape> from, std::vector<std::unique_ptr<Shape>> removed) {
+std::unique_ptr<Shape> difference(std::unique_ptr<Shape> from,
+                                  std::vector<std::shared_ptr<const Shape>> removed) {
   return std::make_unique<Difference>(std::move(from), std::move(removed));
 }
 

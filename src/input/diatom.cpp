@@ -2,38 +2,88 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "input/diatom_file.hpp"
 #include "input/geometry_grid.hpp"
 #include "input/shape_source.hpp"
-#include "input/stl.hpp"
 #include "input/text_file.hpp"
 
 namespace sculpt {
 namespace {
 
-// Collective. The shapes with the solids of their STL files; without those that are empty.
-std::vector<MaterialShape> with_solids(const Comm& comm, const Deck& deck, const std::string& path,
-                                       std::vector<DiatomShape> parsed, const Log& log) {
-  std::vector<StlFile> files;
-  for (const DiatomShape& shape : parsed)
-    if (shape.shape == nullptr)
-      files.push_back({shape.stl_file, fmt::format("{}, line {}", path, shape.line)});
-  std::vector<StlSolid> solids = open_solids(comm, deck, files, log);
-  std::vector<MaterialShape> shapes;
-  std::size_t next = 0;
-  for (DiatomShape& shape : parsed) {
-    std::shared_ptr<const FacetMesh> facets;
-    if (shape.shape == nullptr) {
-      shape.shape = std::move(solids[next].solid);
-      facets = std::move(solids[next++].facets);
-    }
-    if (shape.shape != nullptr)
-      shapes.push_back({std::move(shape.shape), shape.material, std::move(facets), std::move(shape.package)});
-  }
-  if (shapes.empty())
-    throw AgreedError(fmt::format("{}: none of its STL files holds a facet, expected a shape", path));
-  return shapes;
+using SharedShapes = std::vector<std::shared_ptr<const Shape>>;
+
+bool overlap(const Box& a, const Box& b) {
+  for (std::size_t d = 0; d < 3; ++d)
+    if (a.lo[d] > b.hi[d] || b.lo[d] > a.hi[d]) return false;
+  return true;
 }
+
+// The solids of a file's packages, once its STL files are read.
+class Assembly {
+ public:
+  Assembly(DiatomFile& file, std::vector<StlSolid>& stl, const std::string& path, const Log& log)
+      : file_(file), stl_(stl), path_(path), log_(log) {}
+
+  // Warns of packages without a solid.
+  std::vector<MaterialShape> shapes() {
+    for (DiatomPackage& package : file_.packages) {
+      const std::size_t first = shapes_.size();
+      assemble(package);
+      if (shapes_.size() > first) continue;
+      log_.line("WARNING: {}, line {}: package '{}' has no solid and fills nothing", path_, package.line,
+                package.name);
+    }
+    if (shapes_.empty()) throw Error(path_ + ": all of its STL files are empty, expected at least one solid");
+    return std::move(shapes_);
+  }
+
+ private:
+  void assemble(DiatomPackage& package) {
+    const SharedShapes of_package = shared(package.deleted);
+    for (DiatomInsert& insert : package.inserts) {
+      MaterialShape shape = solid_of(insert.solid);
+      SharedShapes removed = shared(insert.deleted);
+      if (shape.shape == nullptr) continue;
+      removed.insert(removed.end(), of_package.begin(), of_package.end());
+      cut(shape, std::move(removed), insert.line);
+      shape.material = package.material;
+      shape.package = package.name;
+      shapes_.push_back(std::move(shape));
+    }
+  }
+  // Without a shape when the STL file holds no facets.
+  MaterialShape solid_of(DiatomSolid& solid) {
+    if (solid.shape != nullptr) return {std::move(solid.shape)};
+    StlSolid& stl = stl_[solid.stl_file];
+    return {std::move(stl.solid), 0, std::move(stl.facets)};
+  }
+  SharedShapes shared(std::vector<DiatomSolid>& solids) {
+    SharedShapes shapes;
+    for (DiatomSolid& solid : solids)
+      if (MaterialShape shape = solid_of(solid); shape.shape) shapes.push_back(std::move(shape.shape));
+    return shapes;
+  }
+  // The surface that deleting makes is in no file: the curves of such an STL solid are not captured.
+  void cut(MaterialShape& shape, SharedShapes removed, std::int64_t line) {
+    const Box bounds = shape.shape->bounds();
+    std::erase_if(removed, [&](const auto& other) { return !overlap(bounds, other->bounds()); });
+    if (removed.empty()) return;
+    shape.shape = difference(std::move(shape.shape), std::move(removed));
+    if (shape.facets == nullptr) return;
+    shape.facets = nullptr;
+    log_.line(
+        "WARNING: {}, line {}: parts of the STL solid are deleted, it counts as one surface without curves",
+        path_, line);
+  }
+
+  DiatomFile& file_;
+  std::vector<StlSolid>& stl_;
+  const std::string& path_;
+  const Log& log_;
+  std::vector<MaterialShape> shapes_;
+};
 
 }  // namespace
 
@@ -53,11 +103,15 @@ std::unique_ptr<MaterialSource> open_diatom(const Comm& comm, const Deck& deck, 
   log.line(" Finished loading diatom master buffer");
   text = comm.broadcast(std::move(text), 0);
   log.line(" Finished communicating diatom master buffer");
-  std::vector<DiatomShape> parsed;
-  collectively(comm, "reading " + path, [&] { parsed = parse_diatom(text, path); });
-  std::vector<MaterialShape> shapes = with_solids(comm, deck, path, std::move(parsed), log);
+  DiatomFile file;
+  collectively(comm, "reading " + path, [&] { file = parse_diatom(text, path); });
+  std::vector<StlSolid> stl = open_solids(comm, deck, file.stl_files, log);
+  const std::vector<FacetedSolid*> solids = solids_of(stl);
+  std::vector<MaterialShape> shapes;
+  collectively(comm, "making the solids of " + path,
+               [&] { shapes = Assembly(file, stl, path, log).shapes(); });
   log.line(" Finished creating diatoms");
-  return shape_source(comm, deck, "diatom_file", std::move(shapes), overlay, log);
+  return shape_source(comm, deck, "diatom_file", std::move(shapes), solids, overlay, log);
 }
 
 }  // namespace sculpt

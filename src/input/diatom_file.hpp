@@ -1,24 +1,41 @@
 #pragma once
-// The diatom language (Appendix K of the report): packages of shapes, each package of one material.
+// The diatom language (docs/shapes.md): packages of solids, each package of one material.
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "sculpt/geom/shape.hpp"
+#include "input/stl.hpp"
 
 namespace sculpt {
 
-struct DiatomShape {
-  std::unique_ptr<Shape> shape;  // null: what an STL file holds
-  std::int64_t material = 0;     // the user's id, >= 1
-  std::string stl_file;
-  std::int64_t line = 0;  // where it is inserted
-  std::string package{};  // its name; of one without: package_<place in the file, from 1>
+struct DiatomSolid {
+  std::unique_ptr<Shape> shape;  // null: the solid of an STL file
+  std::size_t stl_file = 0;      // its position in DiatomFile::stl_files
 };
 
-// Local. The shapes in the order of insertion, at least one. `path` is for messages: Error with file and
-// line.
-[[nodiscard]] std::vector<DiatomShape> parse_diatom(std::string_view text, const std::string& path);
+struct DiatomInsert {
+  std::int64_t line = 0;
+  DiatomSolid solid;
+  std::vector<DiatomSolid> deleted;  // taken out of this solid
+};
+
+struct DiatomPackage {
+  std::string name;  // without one: package_<place in the file, from 1>
+  std::int64_t line = 0;
+  std::int64_t material = 0;  // >= 1
+  std::vector<DiatomInsert> inserts;
+  std::vector<DiatomSolid> deleted;  // taken out of all of its solids
+};
+
+struct DiatomFile {
+  std::vector<DiatomPackage> packages;
+  std::vector<StlFile> stl_files;
+};
+
+// Local. At least one insert; packages and inserts in the order of the file. `path` is for messages: Error
+// with file and line.
+[[nodiscard]] DiatomFile parse_diatom(std::string_view text, const std::string& path);
 
 }  // namespace sculpt

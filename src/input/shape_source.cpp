@@ -23,17 +23,15 @@ constexpr double kFeatureReach = 3;  // in cells
 
 class ShapeSource final : public MaterialSource {
  public:
-  ShapeSource(const Deck& deck, std::vector<MaterialShape> shapes, Grid grid,
-              const std::optional<std::array<Vec3, 3>>& axes, const Log& log)
-      : grid_(std::move(grid)), axes_(axes), periodic_(deck.periodic), log_(log) {
+  ShapeSource(const Deck& deck, std::vector<MaterialShape> shapes, std::vector<FacetedSolid*> solids,
+              Grid grid, const std::optional<std::array<Vec3, 3>>& axes, const Log& log)
+      : grid_(std::move(grid)), axes_(axes), periodic_(deck.periodic), solids_(std::move(solids)), log_(log) {
     for (const MaterialShape& shape : shapes) table_.block_id.push_back(shape.material);
     std::sort(table_.block_id.begin(), table_.block_id.end());
     table_.block_id.erase(std::unique(table_.block_id.begin(), table_.block_id.end()), table_.block_id.end());
     add_void(deck);
     name_surfaces(shapes);
     auto inserted = std::make_shared<std::vector<InsertedShape>>();
-    for (const MaterialShape& shape : shapes)
-      if (auto* solid = dynamic_cast<FacetedSolid*>(shape.shape.get())) solids_.push_back(solid);
     for (MaterialShape& shape : shapes) {
       inserted->push_back({std::move(shape.shape), dense(shape.material)});
       if (shape.facets) faceted_.push_back({shape.facets, dense(shape.material)});
@@ -92,12 +90,13 @@ class ShapeSource final : public MaterialSource {
 
  private:
   // Where each rank will ask of the shapes: near the cells it wants. Without cells that anyone wants, and
-  // when space is periodic, everywhere.
+  // when space is periodic or solids are turned, everywhere.
   [[nodiscard]] std::vector<Box> regions_of(std::span<const IndexBox> wanted) const {
     constexpr std::int64_t kMargin = 3;  // cells, for the surfaces near those of the rank
     constexpr double kFar = std::numeric_limits<double>::max();
     const bool anywhere =
-        periodic_ || std::all_of(wanted.begin(), wanted.end(), [](const IndexBox& w) { return w.empty(); });
+        periodic_ || axes_ ||
+        std::all_of(wanted.begin(), wanted.end(), [](const IndexBox& w) { return w.empty(); });
     std::vector<Box> regions;
     for (const IndexBox& w : wanted) {
       Box box{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
@@ -175,7 +174,7 @@ class ShapeSource final : public MaterialSource {
   Grid grid_;
   std::optional<std::array<Vec3, 3>> axes_;  // of the grid in space
   bool periodic_;
-  std::vector<FacetedSolid*> solids_;  // those among the shapes
+  std::vector<FacetedSolid*> solids_;  // those among the shapes and parts of them
   Log log_;
   MaterialTable table_;
   std::shared_ptr<const std::vector<InsertedShape>> shapes_;
@@ -214,6 +213,30 @@ Box bounds_of(const std::vector<MaterialShape>& shapes) {
     }
   }
   return all;
+}
+
+bool overlap(const Box& a, const Box& b) {
+  for (std::size_t d = 0; d < 3; ++d)
+    if (a.lo[d] > b.hi[d] || b.lo[d] > a.hi[d]) return false;
+  return true;
+}
+
+// Packages, which are shapes in a row, that lie outside of the space of the mesh.
+void warn_of_packages_outside(const std::vector<MaterialShape>& shapes, const Box& space, const Log& log) {
+  constexpr std::int64_t kMostWarnings = 20;
+  std::int64_t outside = 0;
+  for (std::size_t first = 0; first < shapes.size();) {
+    std::size_t last = first;
+    bool reaches = false;
+    for (; last < shapes.size() && shapes[last].package == shapes[first].package; ++last)
+      reaches = reaches || overlap(shapes[last].shape->bounds(), space);
+    if (!reaches && ++outside <= kMostWarnings)
+      log.line("WARNING: package '{}' lies outside the box of the grid and fills nothing",
+               shapes[first].package);
+    first = last;
+  }
+  if (outside > kMostWarnings)
+    log.line("WARNING: {} more packages lie outside the box of the grid", outside - kMostWarnings);
 }
 
 // Collective. The principal axes of what the shapes fill; rank 0 knows all of it.
@@ -265,6 +288,7 @@ void turn(const Comm& comm, std::vector<MaterialShape>& shapes, const std::array
 
 std::unique_ptr<MaterialSource> shape_source(const Comm& comm, const Deck& deck, const std::string& option,
                                              std::vector<MaterialShape> shapes,
+                                             std::vector<FacetedSolid*> solids,
                                              const std::optional<Box>& overlay, const Log& log) {
   std::optional<std::array<Vec3, 3>> axes;
   if (deck.align && !overlay) {
@@ -278,7 +302,9 @@ std::unique_ptr<MaterialSource> shape_source(const Comm& comm, const Deck& deck,
   collectively(comm, "making the grid of " + option, [&] {
     Grid grid = overlay ? grid_over(*overlay, shapes.size()) : geometry_grid(deck, option, bounds_of(shapes));
     if (!overlay) tell_geometry_grid(deck, grid, log);
-    source = std::make_unique<ShapeSource>(deck, std::move(shapes), std::move(grid), axes, log);
+    warn_of_packages_outside(shapes, overlay ? *overlay : space_of(grid), log);
+    source =
+        std::make_unique<ShapeSource>(deck, std::move(shapes), std::move(solids), std::move(grid), axes, log);
   });
   return source;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sculpt/facets/facet_mesh.hpp"
+#include "sculpt/facets/faceted_solid.hpp"
 #include "sculpt/input/material_source.hpp"
 
 namespace sculpt {
@@ -18,11 +19,13 @@ struct MaterialShape {
 };
 
 // Collective. The shapes, at least one, are in the order of insertion, the same on all ranks; `option` names
-// them. overlay: the bounds of an overlay mesh; without one the grid follows from the deck and the bounds of
+// them. solids: those that are among the shapes or parts of them, which ranks other than 0 know the bounds
+// of. overlay: the bounds of an overlay mesh; without one the grid follows from the deck and the bounds of
 // the shapes (geometry_grid.hpp), which the option align turns first. Throws AgreedError.
 [[nodiscard]] std::unique_ptr<MaterialSource> shape_source(const Comm& comm, const Deck& deck,
                                                            const std::string& option,
                                                            std::vector<MaterialShape> shapes,
+                                                           std::vector<FacetedSolid*> solids,
                                                            const std::optional<Box>& overlay, const Log& log);
 
 }  // namespace sculpt

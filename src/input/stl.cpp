@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <set>
 
 #include "input/geometry_grid.hpp"
 #include "input/shape_source.hpp"
@@ -23,8 +24,9 @@ void refuse_missing(const std::vector<StlFile>& files) {
   std::size_t missing = 0;
   const StlFile* first = nullptr;
   const char* reason = "";
+  std::set<std::string> seen;
   for (const StlFile& file : files) {
-    if (::access(file.path.c_str(), R_OK) == 0) continue;
+    if (!seen.insert(file.path).second || ::access(file.path.c_str(), R_OK) == 0) continue;
     if (first == nullptr) {
       first = &file;
       reason = std::strerror(errno);
@@ -35,7 +37,7 @@ void refuse_missing(const std::vector<StlFile>& files) {
   if (missing > kMostNamed) names += fmt::format(" and {} more", missing - kMostNamed);
   if (missing == 1) throw Error(fmt::format("{}: cannot open {}: {}", first->named_by, names, reason));
   throw Error(
-      fmt::format("{}: cannot open {} of {} STL files: {}", first->named_by, missing, files.size(), names));
+      fmt::format("{}: cannot open {} of {} STL files: {}", first->named_by, missing, seen.size(), names));
 }
 
 FacetMesh read_facets(const StlFile& file) {
@@ -44,7 +46,9 @@ FacetMesh read_facets(const StlFile& file) {
   const TextFile text_file(file.path, file.named_by);
   std::string text(static_cast<std::size_t>(text_file.size()), '\0');
   text_file.read(0, text);
-  return parse_stl(text, file.path);
+  FacetMesh mesh = parse_stl(text, file.path);
+  for (Vec3& vertex : mesh.vertices) vertex = file.placement.placed(vertex);
+  return mesh;
 }
 
 void warn(const Log& log, const std::string& path, const Defects& defects, const char* what) {
@@ -148,6 +152,13 @@ std::vector<StlSolid> open_solids(const Comm& comm, const Deck& deck, const std:
   return solids;
 }
 
+std::vector<FacetedSolid*> solids_of(std::span<const StlSolid> stl) {
+  std::vector<FacetedSolid*> solids;
+  for (const StlSolid& s : stl)
+    if (s.solid) solids.push_back(s.solid.get());
+  return solids;
+}
+
 void hand_out(const Comm& comm, std::span<FacetedSolid* const> solids, std::span<const Box> regions) {
   constexpr std::size_t kMostBytes = std::size_t{1} << 26;  // of the parts that are on their way at a time
   const std::size_t ranks = regions.size(), parts = solids.size() * ranks;
@@ -186,9 +197,10 @@ std::unique_ptr<MaterialSource> open_stl(const Comm& comm, const Deck& deck, con
   if (solids[0].solid == nullptr)
     throw AgreedError(fmt::format("stl_file: '{}' has no facets, expected a closed surface of at least four",
                                   deck.stl_file));
+  const std::vector<FacetedSolid*> faceted = solids_of(solids);
   std::vector<MaterialShape> shapes;
   shapes.push_back({std::move(solids[0].solid), 1, std::move(solids[0].facets), "stl"});
-  return shape_source(comm, deck, "stl_file", std::move(shapes), overlay, log);
+  return shape_source(comm, deck, "stl_file", std::move(shapes), faceted, overlay, log);
 }
 
 }  // namespace sculpt

@@ -5,15 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "input/placement.hpp"
 #include "sculpt/facets/facet_mesh.hpp"
 #include "sculpt/facets/faceted_solid.hpp"
 #include "sculpt/input/material_source.hpp"
 
 namespace sculpt {
 
-// A file that is to be read, and what names it, for messages: "stl_file" or "deck.diatom, line 7".
+// A file that is to be read, what names it, for messages ("stl_file" or "deck.diatom, line 7"), and where its
+// solid goes.
 struct StlFile {
   std::string path, named_by;
+  Placement placement{};
 };
 
 struct StlSolid {
@@ -27,6 +30,9 @@ struct StlSolid {
 // together. Throws AgreedError.
 [[nodiscard]] std::vector<StlSolid> open_solids(const Comm& comm, const Deck& deck,
                                                 const std::vector<StlFile>& files, const Log& log);
+
+// Those that there are, in order.
+[[nodiscard]] std::vector<FacetedSolid*> solids_of(std::span<const StlSolid> stl);
 
 // Collective. Every rank gets of the solids what it needs in its region (known to all ranks); rank 0 drops
 // the rest.

@@ -22,7 +22,7 @@ struct Frame {
 [[nodiscard]] std::unique_ptr<Shape> moved(std::unique_ptr<Shape> shape, const Frame& frame);
 // Without what lies in any of the others.
 [[nodiscard]] std::unique_ptr<Shape> difference(std::unique_ptr<Shape> from,
-                                                std::vector<std::unique_ptr<Shape>> removed);
+                                                std::vector<std::shared_ptr<const Shape>> removed);
 
 [[nodiscard]] std::unique_ptr<Shape> ellipsoid(const Vec3& center, const Vec3& radii);
 // Two opposite corners.

@@ -170,35 +170,121 @@ TEST(Diatom, UnderstandsCthSpellings) {
   EXPECT_NEAR(volume(data.fractions, 0), ball(1), 1e-3);
 }
 
-TEST(Diatom, NamesTheLineOfAMistake) {
-  const auto in_sphere = [](const std::string& body) {
-    return diatom_error("diatom\npackage 'a'\nmaterial 1\ninsert sphere\n" + body +
-                        "endinsert\nendpackage\nenddiatom\n");
+TEST(Diatom, TakesSeveralBlocksAndBareNames) {
+  const MaterialData data = measure("diatoms\npackage ball material 3\n" + sphere("-1 0 0", "0.5") +
+                                        "endp\nendd\nDIATOM\npackage\nmaterial 9\n" + sphere("1 0 0", "0.5") +
+                                        "endpackage\nenddia\n",
+                                    4, 2);
+  EXPECT_EQ(data.table.block_id, (std::vector<std::int64_t>{3, 9, 10}));
+}
+
+// What is wrong with an insert; the line after 'insert <shape>' is line 5.
+std::string insert_error(const std::string& shape, const std::string& body) {
+  return diatom_error("diatom\npackage 'a'\nmaterial 1\ninsert " + shape + "\n" + body +
+                      "endinsert\nendpackage\nenddiatom\n");
+}
+void expect_error(const std::string& error, const std::string& part) {
+  EXPECT_TRUE(contains(error, part)) << "expected: " << part << "\nin: " << error;
+}
+
+TEST(Diatom, NamesTheLineOfAMistakeInASphere) {
+  EXPECT_EQ(insert_error("sphere", "center 0 0 0\nradius 1\n"), "");
+  const auto expect = [](const std::string& body, const std::string& part) {
+    expect_error(insert_error("sphere", body), part);
   };
-  EXPECT_EQ(in_sphere("center 0 0 0\nradius 1\n"), "");
-  EXPECT_TRUE(
-      contains(in_sphere("center 0 0 0\nradius 0\n"), "line 6: found radius 0, expected a value > 0"));
-  EXPECT_TRUE(contains(in_sphere("center 0 0 0\nradius -2\n"), "line 6: found radius -2"));
-  EXPECT_TRUE(
-      contains(in_sphere("center 0 0\nradius 1\n"), "line 6: found 'radius', expected three coordinates"));
-  EXPECT_TRUE(contains(in_sphere("radius 1\n"), "line 4: the sphere has no center"));
-  EXPECT_TRUE(contains(in_sphere("center 0 0 0\n"), "line 4: the sphere has no radius"));
-  EXPECT_TRUE(contains(in_sphere("colour 3\n"),
-                       "line 5: found 'colour', expected 'center', 'radius' or 'endinsert'"));
-  EXPECT_TRUE(contains(diatom_error("diatom\npackage 'a'\nmaterial 1\ninsert box\n"),
-                       "line 4: insert 'box' is not supported yet"));
-  EXPECT_TRUE(contains(diatom_error("diatom\npackage 'a'\nmaterial 0\n"),
-                       "line 3: found material '0', expected an integer from 1"));
-  EXPECT_TRUE(
-      contains(diatom_error("diatom\npackage 'a'\n" + sphere("0 0 0", "1") + "endpackage\nenddiatom\n"),
-               "line 2: the package has no material"));
-  EXPECT_TRUE(contains(diatom_error("diatom\npackage 'a'\nmaterial 1\ninsert sphere\nradius 1\n"),
-                       "line 4: 'insert' is not closed, expected 'endinsert'"));
-  EXPECT_TRUE(contains(diatom_error("diatom\npackage 'a'\nmaterial 1\n"), "line 2: 'package' is not closed"));
-  EXPECT_TRUE(contains(diatom_error("\ndiatom\n"), "line 2: 'diatom' is not closed, expected 'enddiatom'"));
-  EXPECT_TRUE(contains(diatom_error("hello\n"), "line 1: found 'hello', expected 'diatom'"));
-  EXPECT_TRUE(contains(diatom_error("diatom\nenddiatom\n"), "holds no shape"));
-  EXPECT_TRUE(contains(diatom_error("diatom\npackage 'a\n"), "line 2: expected a closing '"));
+  expect("center 0 0 0\nradius 0\n", "line 6: found radius 0, expected a value > 0");
+  expect("center 0 0 0\nradius -2\n", "line 6: found radius -2, expected a value > 0");
+  expect("center 0 0\nradius 1\n", "line 5: found 2 numbers after 'center' and then 'radius', expected 3");
+  expect("center 0 0 0 0\nradius 1\n",
+         "line 5: found 4 numbers after 'center' and then 'radius', expected 3");
+  expect("center 0 0 zero\nradius 1\n", "line 5: found 2 numbers after 'center' and then 'zero', expected 3");
+  expect("center 0 0 '0'\nradius 1\n", "line 5: found 2 numbers after 'center' and then '0', expected 3");
+  expect("center 0 nan 0\nradius 1\n", "line 5: found nan after 'center', expected finite numbers");
+  expect("center 0 0 0\nradius inf\n", "line 6: found inf after 'radius', expected finite numbers");
+  expect("center 0 0 0\nradius 1e60\n", "line 4: found 1e+60, expected coordinates and lengths up to");
+  expect("radius 1\n", "line 4: the sphere has no 'center', expected 'center' and 3 numbers (x y z)");
+  expect("center 0 0 0\n", "line 4: the sphere has no 'radius', expected 'radius' and 1 number");
+  expect("center 0 0 0\nradius 1\nr 2\n", "line 7: 'radius' is given twice, first in line 6");
+  expect("radus 3\n",
+         "line 5: found 'radus', expected 'center', 'radius', 'rotate', 'translate', 'scale', 'delete' or "
+         "'endinsert'; did you mean 'radius'?");
+}
+
+TEST(Diatom, NamesTheLineOfAMistakeInAShape) {
+  const std::string ends = "ce1 0 0 0\nce2 0 0 1\n";
+  expect_error(insert_error("banana", ""),
+               "line 4: found shape 'banana', expected 'sphere', 'ellipsoid', 'box', 'parallelepiped', "
+               "'planes', 'cylinder', 'cone', 'torus', 'tet', 'wedge', 'hex', 'revolution', 'extrusion' or "
+               "'stl'");
+  expect_error(insert_error("cilinder", ""), "; did you mean 'cylinder'?");
+  expect_error(insert_error("circle", "center 0 0\nradius 1\n"),
+               "line 4: insert 'circle' is two-dimensional, expected a solid: 'sphere'");
+  expect_error(insert_error("cone", ends + "rad 1\n"),
+               "line 7: found 'rad', which may mean several keywords, expected 'rad1' or 'rad2'");
+  expect_error(insert_error("cone", ends + "rad1 -1\nrad2 1\n"),
+               "line 7: found rad1 -1, expected a value >= 0");
+  expect_error(insert_error("ellipsoid", "center 0 0 0\nradii 1 2\n"),
+               "line 6: found 2 numbers after 'radii' and then 'endinsert', expected 3 numbers (the radii");
+  expect_error(insert_error("torus", "center 0 0 0\naxis 0 0 0\n"),
+               "line 6: found direction 0 0 0 after 'axis', expected one with a length");
+  expect_error(insert_error("planes", "plane 0 0 0 0 0 0\n"), "line 5: found direction 0 0 0 after 'plane'");
+  expect_error(insert_error("revolution", ends), "line 4: the revolution has no 'p'");
+  expect_error(insert_error("revolution", ends + "p = 1 2 3\n"), "line 7: found 3 numbers after 'p'");
+  expect_error(insert_error("stl", "file\n"),
+               "line 5: found the end of the line after 'file', expected the name");
+  expect_error(insert_error("stl", "file ''\n"),
+               "line 5: found '' after 'file', expected the name of an STL");
+  expect_error(insert_error("sphere", "rotate 90 0 0 1 0\n"),
+               "line 5: found 5 numbers after 'rotate' and then 'endinsert', expected 4 or 7");
+  expect_error(insert_error("sphere", "rotate 90 0 0 0\n"), "line 5: found direction 0 0 0 after 'rotate'");
+  expect_error(insert_error("sphere", "scale 0\n"), "line 5: found scale 0, expected a value > 0");
+  expect_error(
+      insert_error("sphere", "delete box\np1 0 0 0\nendinsert\n"),
+      "line 7: found 'endinsert', expected 'p1', 'p2', 'rotate', 'translate', 'scale' or 'enddelete'");
+  expect_error(insert_error("sphere", "delete box\np1 0 0 0\nenddelete\n"), "line 5: the box has no 'p2'");
+}
+
+TEST(Diatom, SolidsWithoutVolumeAreNamed) {
+  const std::string zero = "0 0 0\n";
+  expect_error(insert_error("box", "p1 " + zero + "p2 1 0 1\n"), "line 4: a side of a box is 0");
+  expect_error(insert_error("cylinder", "ce1 " + zero + "ce2 " + zero + "radius 1\n"),
+               "line 4: a cylinder: both ends of its axis are (0 0 0)");
+  expect_error(insert_error("tet", "p1 0 0 0\np2 1 0 0\np3 0 1 0\np4 1 1 0\n"),
+               "line 4: the corners of a polyhedron lie in one plane");
+  expect_error(insert_error("planes", "plane 0 0 0 0 0 1\n"),
+               "line 4: 1 planes leave a way to infinity open");
+  expect_error(insert_error("sphere",
+                            "center 0 0 0 radius 1\ndelete cone\nce1 0 0 0 ce2 1 0 0\nr1 0 r2 0\n"
+                            "enddelete\n"),
+               "line 6: a cone has the radii 0 and 0");
+}
+
+TEST(Diatom, NamesTheLineOfAMistakeInABlock) {
+  const auto expect = [](const std::string& text, const std::string& part) {
+    expect_error(diatom_error(text), part);
+  };
+  const std::string ball = sphere("0 0 0", "1");
+  expect("diatom\npackage 'a'\nmaterial 0\n", "line 3: found material '0', expected an integer from 1");
+  expect("diatom\npackage 'a'\nmaterial 1 2\n", "line 3: found '2', expected 'material', 'insert'");
+  expect("diatom\npackage 'a'\nmaterial 1\nmaterial 1\n", "line 4: 'material' is given twice");
+  expect("diatom\npackage 'a'\n" + ball + "endpackage\nenddiatom\n",
+         "line 2: package 'a' has no material, expected 'material <id>'");
+  expect("diatom\npackage 'a'\nmaterial 1\ntemprature 300\n",
+         "line 4: found 'temprature', expected 'material', 'insert', 'delete' or 'endpackage' or a state "
+         "such as "
+         "'velocity'; did you mean 'temperature'?");
+  expect("diatom\n" + ball + "enddiatom\n", "line 2: found 'insert', expected 'package' or 'enddiatom'");
+  expect(ball, "line 1: found 'insert', expected 'diatom'");
+  expect("diatom\npackage 'a'\nmaterial 1\ninsert sphere\nradius 1\n",
+         "line 4: 'insert' is not closed, expected 'endinsert'");
+  expect("diatom\npackage 'a'\nmaterial 1\ndelete sphere\n", "line 4: 'delete' is not closed");
+  expect("diatom\npackage 'a'\nmaterial 1\n", "line 2: 'package' is not closed");
+  expect("diatom\npackage 'a'\nmaterial 1\ninsert\n", "line 4: the file ends, expected the name of a shape");
+  expect("\ndiatom\n", "line 2: 'diatom' is not closed, expected 'enddiatom'");
+  expect("hello\n", "line 1: found 'hello', expected 'diatom'");
+  expect("diatom\nenddiatom\n", "holds no shape");
+  expect("diatom\npackage 'a'\nmaterial 1\nendpackage\nenddiatom\n", "holds no shape");
+  expect("diatom\npackage 'a\n", "line 2: the line ends, expected a closing '");
 }
 
 TEST(Diatom, NeedsAGrid) {

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "sculpt/geom/hex.hpp"
+
 namespace sculpt {
 namespace {
 
-constexpr double kAbsent = 1e-12;  // smaller fractions are rounding
+constexpr double kAbsent = 1e-12;    // smaller fractions are rounding
+constexpr std::size_t kDeepest = 4;  // halvings of a cell in which surfaces have edges
 
 double line(const Box& cell, std::size_t axis, std::size_t l, std::size_t lines) {
   const double t = (static_cast<double>(l) + 0.5) / static_cast<double>(lines);
@@ -26,7 +29,46 @@ std::size_t steepest_parameter(const Shape& shape, const Vec3& centre, const std
   return steepest;
 }
 
+// What boxes and hexes have in common: the axis or parameter of the steepest lines, halves in all directions,
+// volumes.
+const Box& bounds_of(const Box& cell) { return cell; }
+std::size_t steepest_in(const Shape& shape, const Box& cell) {
+  return shape.steepest_axis(0.5 * (cell.lo + cell.hi));
+}
+std::size_t steepest_in(const Shape& shape, const HexCorners& hex) {
+  return steepest_parameter(shape, centre_of(hex), mean_edges(hex));
+}
+double volume_of(const Box& cell) {
+  const Vec3 size = cell.hi - cell.lo;
+  return size.x * size.y * size.z;
+}
+double volume_of(const HexCorners& hex) { return hex_volume(hex); }
+
+// Bit d of `which`: the upper half along axis d.
+Box eighth_of(const Box& cell, std::size_t which) {
+  const Vec3 centre = 0.5 * (cell.lo + cell.hi);
+  Box eighth = cell;
+  for (std::size_t d = 0; d < 3; ++d) ((which >> d & 1) != 0 ? eighth.lo : eighth.hi)[d] = centre[d];
+  return eighth;
+}
+HexCorners eighth_of(const HexCorners& hex, std::size_t which) {
+  const HexLines lines(hex, 0);
+  HexCorners eighth;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const std::array<bool, 3> at{corner % 4 == 1 || corner % 4 == 2, corner % 4 >= 2, corner >= 4};
+    std::array<double, 3> t{};
+    for (std::size_t d = 0; d < 3; ++d)
+      t[d] = 0.5 * (static_cast<double>(which >> d & 1) + (at[d] ? 1.0 : 0.0));
+    const HexLines::Line line = lines.at(t[1], t[2]);
+    eighth[corner] = line.from + t[0] * line.step;
+  }
+  return eighth;
+}
+
 }  // namespace
+
+CellMeter::BoxLines CellMeter::lines_of(const Box& cell, std::size_t axis) { return {cell, axis}; }
+HexLines CellMeter::lines_of(const HexCorners& hex, std::size_t axis) { return HexLines(hex, axis); }
 
 // The lines of a cell that may meet the bounds, by their coordinate on an axis.
 CellMeter::Lines CellMeter::lines_between(const Box& cell, std::size_t axis, std::size_t lines,
@@ -40,53 +82,78 @@ CellMeter::Lines CellMeter::lines_between(const Box& cell, std::size_t axis, std
 }
 
 void CellMeter::measure(const Box& cell, std::span<const std::int32_t> candidates, Fractions& fractions) {
-  if (const auto sole = sole_material(cell, candidates)) {
-    fractions.add(*sole, 1.0);
-  } else {
-    look_into(cell);
-    const Vec3 centre = 0.5 * (cell.lo + cell.hi);
-    const auto steepest = [&](const Shape& s) { return s.steepest_axis(centre); };
-    const std::size_t axis = steepest(shape(0));
-    if (is_gentle(cell, steepest)) {
-      // The error of the midpoint rule falls with the square of the number of lines: two numbers cancel it.
-      sample(cell, axis, 16, 4.0 / 3);
-      sample(cell, axis, 8, -1.0 / 3);
-    } else if (const auto share = share_of_one(cell)) {
-      covered_[0] = *share;
-    } else {
-      sample(cell, axis, kMostLines, 1);
-    }
-    append(fractions);
-  }
-  fractions.end_cell();
+  measure_cell(cell, candidates, fractions);
 }
 
 void CellMeter::measure(const HexCorners& hex, std::span<const std::int32_t> candidates,
                         Fractions& fractions) {
-  const Box bounds = bounds_of(hex);
-  select(bounds, candidates, [&](const Shape& s) { return s.contains(bounds); });
+  measure_cell(hex, candidates, fractions);
+}
+
+template <class Cell>
+void CellMeter::measure_cell(const Cell& cell, std::span<const std::int32_t> candidates,
+                             Fractions& fractions) {
+  select(bounds_of(cell), candidates);
   if (const auto sole = sole_selected()) {
     fractions.add(*sole, 1.0);
   } else {
-    look_into(bounds);
-    const Vec3 centre = centre_of(hex);
-    const std::array<Vec3, 3> edges = mean_edges(hex);
-    const auto steepest = [&](const Shape& s) { return steepest_parameter(s, centre, edges); };
-    const HexLines lines(hex, steepest(shape(0)));
-    if (is_gentle(bounds, steepest)) {
-      sample(lines, 16, 4.0 / 3);
-      sample(lines, 8, -1.0 / 3);
-    } else {
-      sample(lines, kMostLines, 1);
-    }
+    shares_.clear();
+    add_shares(cell, 0, 1);
     append(fractions);
   }
   fractions.end_cell();
 }
 
+// Adds what the selected shapes have of a part of the cell, got by halving it `depth` times. `weight`: of the
+// part in the cell.
+template <class Cell>
+void CellMeter::add_shares(const Cell& part, std::size_t depth, double weight) {
+  look_into(bounds_of(part));
+  const auto steepest = [&](const Shape& s) { return steepest_in(s, part); };
+  const bool gentle = is_gentle(bounds_of(part), steepest);
+  const std::optional<double> share = gentle ? std::nullopt : share_of_one(part);
+  if (!share && depth < kDeepest && is_rough(bounds_of(part), steepest)) {
+    add_eighths(part, depth + 1, weight);
+    return;
+  }
+  const auto lines = lines_of(part, steepest(shape(0)));
+  if (share) {
+    covered_[0] = *share;
+  } else if (gentle) {
+    // The error of the midpoint rule falls with the square of the number of lines: two numbers cancel it.
+    const std::size_t most = depth < 2 ? 16 : 8;
+    sample(lines, most, 4.0 / 3);
+    sample(lines, most / 2, -1.0 / 3);
+  } else {
+    sample(lines, std::max<std::size_t>(kMostLines >> depth, 8), 1);
+  }
+  double covered = 0;
+  for (std::size_t s = 0; s < reaching_.size(); ++s) {
+    shares_.push_back({material(s), weight * covered_[s]});
+    covered += covered_[s];
+  }
+  shares_.push_back({outside_, filled_ ? 0.0 : weight * std::max(0.0, 1 - covered)});
+}
+
+template <class Cell>
+void CellMeter::add_eighths(const Cell& part, std::size_t depth, double weight) {
+  std::vector<std::int32_t> candidates;
+  for (const std::size_t s : reaching_) candidates.push_back(static_cast<std::int32_t>(s));
+  const double per_volume = weight / volume_of(part);
+  for (std::size_t e = 0; e < 8; ++e) {
+    const Cell eighth = eighth_of(part, e);
+    const double share = per_volume * volume_of(eighth);
+    select(bounds_of(eighth), candidates);
+    if (const auto sole = sole_selected())
+      shares_.push_back({*sole, share});
+    else
+      add_shares(eighth, depth, share);
+  }
+}
+
 std::optional<std::int32_t> CellMeter::sole_material(const Box& cell,
                                                      std::span<const std::int32_t> candidates) {
-  select(cell, candidates, [&](const Shape& s) { return s.contains(cell); });
+  select(cell, candidates);
   return sole_selected();
 }
 
@@ -100,15 +167,14 @@ std::optional<std::int32_t> CellMeter::sole_selected() const {
 }
 
 // The shapes that count: those that reach the cell, up to the first that fills it.
-template <class Fills>
-void CellMeter::select(const Box& bounds, std::span<const std::int32_t> candidates, const Fills& fills) {
+void CellMeter::select(const Box& bounds, std::span<const std::int32_t> candidates) {
   reaching_.clear();
   filled_ = false;
   for (const std::int32_t c : candidates) {
     const auto at = static_cast<std::size_t>(c);
     if (shapes_[at].shape->misses(bounds)) continue;
     reaching_.push_back(at);
-    filled_ = fills(*shapes_[at].shape);
+    filled_ = shapes_[at].shape->contains(bounds);
     if (filled_) return;
   }
 }
@@ -123,10 +189,23 @@ bool CellMeter::is_gentle(const Box& cell, const Steepest& steepest) const {
   return true;
 }
 
-// The exact share of the only shape that counts.
+// Whether lines along one axis measure the shapes badly: where edges end faces, and where a face may lie
+// along the lines of another shape.
+template <class Steepest>
+bool CellMeter::is_rough(const Box& bounds, const Steepest& steepest) const {
+  const std::size_t axis = steepest(shape(0));
+  for (std::size_t s = 0; s + (filled_ ? 1 : 0) < reaching_.size(); ++s) {
+    if (shape(s).has_edges(bounds)) return true;
+    if (steepest(shape(s)) != axis && shape(s).has_edges(shape(s).bounds())) return true;
+  }
+  return false;
+}
+
+// The exact share of the only shape that counts, where it can tell that.
 std::optional<double> CellMeter::share_of_one(const Box& cell) const {
   return reaching_.size() == 1 ? shape(0).share_of(cell) : std::nullopt;
 }
+std::optional<double> CellMeter::share_of_one(const HexCorners&) { return std::nullopt; }
 
 // Gets the shapes that count ready to be asked for their chords.
 void CellMeter::look_into(const Box& bounds) {
@@ -138,7 +217,9 @@ void CellMeter::look_into(const Box& bounds) {
 }
 
 // Adds the weighted shares of the cell that the shapes get of lines x lines lines along the axis.
-void CellMeter::sample(const Box& cell, std::size_t axis, std::size_t lines, double weight) {
+void CellMeter::sample(const BoxLines& box, std::size_t lines, double weight) {
+  const Box& cell = box.cell;
+  const std::size_t axis = box.axis;
   const std::size_t axis_u = (axis + 1) % 3, axis_v = (axis + 2) % 3;
   const double from = cell.lo[axis], to = cell.hi[axis];
   Row v;
@@ -293,13 +374,6 @@ double CellMeter::take(const Piece& chord) {
 
 // Turns the shares into fractions by material, ascending, whose sum is 1.
 void CellMeter::append(Fractions& fractions) {
-  shares_.clear();
-  double covered = 0;
-  for (std::size_t s = 0; s < reaching_.size(); ++s) {
-    shares_.push_back({material(s), covered_[s]});
-    covered += covered_[s];
-  }
-  shares_.push_back({outside_, filled_ ? 0.0 : std::max(0.0, 1 - covered)});
   std::stable_sort(shares_.begin(), shares_.end(),
                    [](const Share& a, const Share& b) { return a.material < b.material; });
   std::size_t kept = 0;

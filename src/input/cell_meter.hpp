@@ -14,7 +14,9 @@ namespace sculpt {
 
 // Measures by lines along the axis in which the surface is steepest: exact along the line, midpoint rule
 // across, extrapolated where surfaces are gentle. Of balls with a radius of 0.6 edges of the box or more the
-// shares are within 1e-3 of the box, mostly 1e-4; within 3e-3 where several meet. A hex is measured in the
+// shares are within 1e-3 of the box, mostly 1e-4; within 3e-3 where several meet. Where shapes
+// have edges the box is halved in all directions, again and again, until the parts are measured so: within
+// 1e-3 of the box. A hex is measured in the
 // same way along lines on which one of its parameters varies.
 class CellMeter {
  public:
@@ -35,6 +37,10 @@ class CellMeter {
   struct Piece {
     double from, to;
   };
+  struct BoxLines {
+    const Box& cell;
+    std::size_t axis;
+  };
   struct Lines {
     std::size_t first, last;  // half open
   };
@@ -51,12 +57,21 @@ class CellMeter {
 
   [[nodiscard]] const Shape& shape(std::size_t s) const { return *local_[s]; }
   [[nodiscard]] std::int32_t material(std::size_t s) const { return shapes_[reaching_[s]].material; }
-  template <class Fills>
-  void select(const Box& bounds, std::span<const std::int32_t> candidates, const Fills& fills);
+  void select(const Box& bounds, std::span<const std::int32_t> candidates);
+  template <class Cell>
+  void measure_cell(const Cell& cell, std::span<const std::int32_t> candidates, Fractions& fractions);
+  template <class Cell>
+  void add_shares(const Cell& part, std::size_t depth, double weight);
+  template <class Cell>
+  void add_eighths(const Cell& part, std::size_t depth, double weight);
   [[nodiscard]] std::optional<std::int32_t> sole_selected() const;
   template <class Steepest>
   [[nodiscard]] bool is_gentle(const Box& bounds, const Steepest& steepest) const;
-  void sample(const Box& cell, std::size_t axis, std::size_t lines, double weight);
+  template <class Steepest>
+  [[nodiscard]] bool is_rough(const Box& bounds, const Steepest& steepest) const;
+  [[nodiscard]] static BoxLines lines_of(const Box& cell, std::size_t axis);
+  [[nodiscard]] static HexLines lines_of(const HexCorners& hex, std::size_t axis);
+  void sample(const BoxLines& box, std::size_t lines, double weight);
   void sample(const HexLines& hex, std::size_t lines, double weight);
   void add_hex_row(const HexLines& hex, double u, std::size_t lines, double& volume);
   [[nodiscard]] static Lines lines_between(const Box& cell, std::size_t axis, std::size_t lines,
@@ -67,6 +82,7 @@ class CellMeter {
   void share_line(const Piece& whole, std::size_t column);
   [[nodiscard]] double take(const Piece& chord);
   [[nodiscard]] std::optional<double> share_of_one(const Box& cell) const;
+  [[nodiscard]] static std::optional<double> share_of_one(const HexCorners& hex);
   void look_into(const Box& bounds);
   void append(Fractions& fractions);
 

@@ -10,6 +10,7 @@
 #include "input/data_field.hpp"
 #include "input/number_stream.hpp"
 #include "input/shape_fractions.hpp"
+#include "sculpt/geom/solids.hpp"
 #include "sculpt/geom/sphere.hpp"
 
 namespace sculpt {
@@ -90,6 +91,34 @@ void measure_mixed_cells(benchmark::State& state) { measure_balls(state, false);
 void measure_pure_cells(benchmark::State& state) { measure_balls(state, true); }
 BENCHMARK(measure_mixed_cells)->Arg(6)->Arg(15)->Arg(40)->Unit(benchmark::kMillisecond);  // tenths of a cell
 BENCHMARK(measure_pure_cells)->Arg(15)->Arg(40)->Unit(benchmark::kMillisecond);
+
+// Unit cells that the edges of a box meet whose faces are not normal to the axes.
+void measure_edge_cells(benchmark::State& state) {
+  const Frame turned{{20, 20, 20}, {{{0.48, 0.64, 0.6}, {-0.8, 0.6, 0}, {-0.36, -0.48, 0.8}}}};
+  auto shapes = std::make_shared<std::vector<InsertedShape>>();
+  shapes->push_back({moved(box({-9, -8, -7}, {9, 8, 7}), turned), 0});
+  const auto field = shape_field(shapes, kCells, 1);
+  std::vector<Box> boxes;
+  const IndexBox all = whole(kCells.cells);
+  for (std::int64_t p = 0; p < all.size(); ++p) {
+    const Box cell = unit_cell(all.cell(p));
+    if (!field->sole_material(cell) && (*shapes)[0].shape->has_edges(cell)) boxes.push_back(cell);
+  }
+  for (auto round : state) {
+    Fractions fractions;
+    for (const Box& box : boxes) field->measure(box, fractions);
+    benchmark::DoNotOptimize(fractions.value.data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(boxes.size()));
+}
+BENCHMARK(measure_edge_cells)->Unit(benchmark::kMillisecond);
+
+// Balls, whose radius is given in tenths of a cell, and the bins to find them by: the smaller the more.
+void index_balls(benchmark::State& state) {
+  for (auto round : state)
+    benchmark::DoNotOptimize(field_of_balls(0.1 * static_cast<double>(state.range(0))).get());
+}
+BENCHMARK(index_balls)->Arg(4)->Arg(8)->Arg(40)->Unit(benchmark::kMillisecond);
 
 constexpr std::int64_t kVoxels = 128;
 std::unique_ptr<MaterialField> field_of_voxels() {

@@ -190,6 +190,15 @@ void for_placed(const std::function<void(const Placed&, Random&)>& visit) {
     }
 }
 
+constexpr double kSame = 1e-8;
+
+// q lies on the surface.
+bool has_both_sides(const std::function<bool(const Vec3&)>& inside, const Vec3& q, Random& random) {
+  int in = 0;
+  for (int n = 0; n < 100; ++n) in += inside(q + kSame * random.direction());
+  return in > 0 && in < 100;
+}
+
 struct Piece {
   double lo, hi;
 };
@@ -241,7 +250,6 @@ TEST(Solids, VolumesAreThoseOfTheFormulas) {
       mean += error / 3;
     }
     EXPECT_LT(std::fabs(mean), 1e-3) << sample.name;
-    if (std::getenv("SHOW")) std::printf("%s: %.2e\n", sample.name.c_str(), mean);
   }
 }
 
@@ -268,6 +276,39 @@ TEST(Solids, PiecesOfLinesEndWhereTheSolidDoes) {
       }
     }
   });
+}
+
+// Lines through edges and corners, along faces and along the axis.
+TEST(Solids, LinesThroughOddPlacesAreWhole) {
+  Random random(7);
+  for (const Sample& sample : samples()) {
+    const std::unique_ptr<Shape> shape = sample.make();
+    const auto odd = [&] { return std::floor(random.between(0, 9)) / 2; };
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 from{odd(), odd(), odd()};
+      Vec3 step{odd() - 2, odd() - 2, odd() - 2};
+      if (i % 2 == 0)
+        step[static_cast<std::size_t>(i / 2 % 3)] = step[static_cast<std::size_t>(i / 4 % 3)] = 0;
+      if (!(norm(step) > 0)) continue;
+      const std::vector<Piece> pieces = pieces_on(*shape, from, step);
+      for (int n = 0; n < 20; ++n) {
+        const double t = random.between(-5, 5);
+        const Vec3 p = from + t * step;
+        const bool in = std::any_of(pieces.begin(), pieces.end(),
+                                    [&](const Piece& piece) { return piece.lo <= t && t <= piece.hi; });
+        if (in != sample.inside(p))
+          EXPECT_TRUE(has_both_sides(sample.inside, p, random)) << sample.name << " at " << t;
+      }
+    }
+  }
+}
+
+TEST(Solids, PointsOfTheAxisAreInside) {
+  const Vec3 on_axis{0, 0, 2};
+  EXPECT_TRUE(cylinder({0, 0, 1}, {0, 0, 4}, 1, 0)->contains({on_axis, on_axis}));
+  EXPECT_TRUE(cone({0, 0, 4}, {0, 0, 1}, 1, 0)->contains({on_axis, on_axis}));
+  EXPECT_FALSE(cylinder({0, 0, 1}, {0, 0, 4}, 1, 0.1)->contains({on_axis, on_axis}));
+  EXPECT_NEAR(pieces_on(*cylinder({0, 0, 1}, {0, 0, 4}, 1, 0), {0, 0, -1}, {0, 0, 1}).at(0).hi, 5, 1e-14);
 }
 
 TEST(Solids, LinesWithoutLengthHaveNoPiece) {
@@ -360,20 +401,12 @@ TEST(Solids, PointsAreBoxes) {
   });
 }
 
-constexpr double kSame = 1e-8;
-
 // The line from q to `within` enters or leaves the solid at q.
 bool ends_at(const Shape& shape, const Vec3& q, const Vec3& within) {
   const std::vector<Piece> pieces = pieces_on(shape, q, within - q);
   return std::any_of(pieces.begin(), pieces.end(), [](const Piece& piece) {
     return std::fabs(piece.lo) < kSame || std::fabs(piece.hi) < kSame;
   });
-}
-
-bool has_both_sides(const Placed& placed, const Vec3& q, Random& random) {
-  int inside = 0;
-  for (int n = 0; n < 50; ++n) inside += placed.inside(q + kSame * random.direction());
-  return inside > 0 && inside < 50;
 }
 
 TEST(Solids, NoPointOfTheSurfaceIsNearerThanTheNearest) {
@@ -397,7 +430,7 @@ TEST(Solids, NoPointOfTheSurfaceIsNearerThanTheNearest) {
       ++told;
       const double distance = norm(*near - p);
       for (const Vec3& q : surface) EXPECT_GE(norm(q - p), distance - kSame);
-      EXPECT_TRUE(ends_at(*placed.shape, *near, within) || has_both_sides(placed, *near, random))
+      EXPECT_TRUE(ends_at(*placed.shape, *near, within) || has_both_sides(placed.inside, *near, random))
           << "not on the surface";
     }
     EXPECT_GE(told, 20);

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <vector>
 
 #include "sculpt/geom/solids.hpp"
 
@@ -7,7 +8,14 @@ namespace {
 
 class Moved final : public Shape {
  public:
-  Moved(std::unique_ptr<Shape> shape, const Frame& frame) : shape_(std::move(shape)), frame_(frame) {}
+  Moved(std::unique_ptr<Shape> shape, const Frame& frame)
+      : owned_(std::move(shape)), shape_(owned_.get()), frame_(frame) {}
+
+  // Moves it on: its frame becomes what `frame` makes of it.
+  void move(const Frame& frame) {
+    frame_.origin = frame.origin + turned_outward(frame, frame_.origin);
+    for (Vec3& axis : frame_.axis) axis = turned_outward(frame, axis);
+  }
 
   [[nodiscard]] Box bounds() const override {
     const Box box = shape_->bounds();
@@ -62,13 +70,26 @@ class Moved final : public Shape {
     return outward(*near);
   }
 
+  [[nodiscard]] const Shape& within(const Box& box, std::unique_ptr<Shape>& storage) const override {
+    auto* part = dynamic_cast<Moved*>(storage.get());
+    if (part == nullptr) {
+      auto made = std::make_unique<Moved>(nullptr, frame_);
+      part = made.get();
+      storage = std::move(made);
+    }
+    part->shape_ = &shape_->within(around(box), part->owned_);
+    part->frame_ = frame_;
+    return *part;
+  }
+
  private:
   [[nodiscard]] Vec3 turned_inward(const Vec3& v) const {
     return {dot(v, frame_.axis[0]), dot(v, frame_.axis[1]), dot(v, frame_.axis[2])};
   }
   [[nodiscard]] Vec3 inward(const Vec3& p) const { return turned_inward(p - frame_.origin); }
-  [[nodiscard]] Vec3 outward(const Vec3& p) const {
-    return frame_.origin + p.x * frame_.axis[0] + p.y * frame_.axis[1] + p.z * frame_.axis[2];
+  [[nodiscard]] Vec3 outward(const Vec3& p) const { return frame_.origin + turned_outward(frame_, p); }
+  [[nodiscard]] static Vec3 turned_outward(const Frame& frame, const Vec3& v) {
+    return v.x * frame.axis[0] + v.y * frame.axis[1] + v.z * frame.axis[2];
   }
   // The box of the shape that holds this one.
   [[nodiscard]] Box around(const Box& box) const {
@@ -79,13 +100,18 @@ class Moved final : public Shape {
     return {middle - reach, middle + reach};
   }
 
-  std::unique_ptr<Shape> shape_;
+  std::unique_ptr<Shape> owned_;  // of the result of within(): storage
+  const Shape* shape_;
   Frame frame_;
 };
 
 }  // namespace
 
 std::unique_ptr<Shape> moved(std::unique_ptr<Shape> shape, const Frame& frame) {
+  if (auto* const earlier = dynamic_cast<Moved*>(shape.get())) {
+    earlier->move(frame);
+    return shape;
+  }
   return std::make_unique<Moved>(std::move(shape), frame);
 }
 

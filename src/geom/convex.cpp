@@ -153,6 +153,12 @@ class Hull {
 
   // None when the points lie in a plane.
   [[nodiscard]] std::vector<Face>& faces() { return faces_; }
+  // Euler: corners + faces = edges + 2, and every edge belongs to two faces.
+  [[nodiscard]] bool is_closed() const {
+    std::size_t sides = 0;
+    for (const Face& face : faces_) sides += face.corners.size();
+    return 2 * (points_.size() + faces_.size()) == sides + 4;
+  }
   [[nodiscard]] std::size_t faces_at(std::size_t point) const { return faces_at_[point]; }
 
  private:
@@ -207,6 +213,11 @@ std::unique_ptr<Shape> hull_of(std::string_view what, std::span<const Vec3> poin
           fmt::format("point {} of {}, ({} {} {}), is no corner of the convex hull of its points, "
                       "expected a convex solid",
                       i + 1, what, points[i].x, points[i].y, points[i].z));
+  if (!hull.is_closed())
+    throw Error(
+        fmt::format("{} is too flat or has corners too close together to tell its faces, expected a "
+                    "solid with distinct corners",
+                    what));
   return std::make_unique<Convex>(std::move(hull.faces()), bounds_of(points));
 }
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <vector>
 
 #include "sculpt/geom/solids.hpp"
 
@@ -8,6 +9,12 @@ namespace {
 class Moved final : public Shape {
  public:
   Moved(std::unique_ptr<Shape> shape, const Frame& frame) : shape_(std::move(shape)), frame_(frame) {}
+
+  // Moves it on: its frame becomes what `frame` makes of it.
+  void move(const Frame& frame) {
+    frame_.origin = frame.origin + turned_outward(frame, frame_.origin);
+    for (Vec3& axis : frame_.axis) axis = turned_outward(frame, axis);
+  }
 
   [[nodiscard]] Box bounds() const override {
     const Box box = shape_->bounds();
@@ -67,8 +74,9 @@ class Moved final : public Shape {
     return {dot(v, frame_.axis[0]), dot(v, frame_.axis[1]), dot(v, frame_.axis[2])};
   }
   [[nodiscard]] Vec3 inward(const Vec3& p) const { return turned_inward(p - frame_.origin); }
-  [[nodiscard]] Vec3 outward(const Vec3& p) const {
-    return frame_.origin + p.x * frame_.axis[0] + p.y * frame_.axis[1] + p.z * frame_.axis[2];
+  [[nodiscard]] Vec3 outward(const Vec3& p) const { return frame_.origin + turned_outward(frame_, p); }
+  [[nodiscard]] static Vec3 turned_outward(const Frame& frame, const Vec3& v) {
+    return v.x * frame.axis[0] + v.y * frame.axis[1] + v.z * frame.axis[2];
   }
   // The box of the shape that holds this one.
   [[nodiscard]] Box around(const Box& box) const {
@@ -86,6 +94,10 @@ class Moved final : public Shape {
 }  // namespace
 
 std::unique_ptr<Shape> moved(std::unique_ptr<Shape> shape, const Frame& frame) {
+  if (auto* const earlier = dynamic_cast<Moved*>(shape.get())) {
+    earlier->move(frame);
+    return shape;
+  }
   return std::make_unique<Moved>(std::move(shape), frame);
 }
 

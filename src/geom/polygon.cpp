@@ -71,7 +71,7 @@ bool Polygon::inside(const Point2& p) const {
   for (std::size_t i = 0; i < size(); ++i) {
     const Point2 &a = corner(i), &b = side_end(i);
     if ((a[1] > p[1]) == (b[1] > p[1])) continue;
-    if ((turn(a, b, p) > 0) == (b[1] > a[1])) in = !in;
+    if ((a[1] < b[1] ? turn(a, b, p) : turn(b, a, p)) > 0) in = !in;
   }
   return in;
 }

@@ -21,6 +21,7 @@ class Polygon {
   // Side i leads from corner i to the next one.
   [[nodiscard]] const Point2& side_end(std::size_t i) const { return corners_[next(i)]; }
   [[nodiscard]] Point2 nearest_on_side(std::size_t i, const Point2& p) const;
+  // Points of a side that has the inside at larger coordinates [0] count as inside.
   [[nodiscard]] bool inside(const Point2& p) const;
   // The neighbouring sides are parts of one line.
   [[nodiscard]] bool is_straight_at(std::size_t corner) const;

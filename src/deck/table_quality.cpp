@@ -69,7 +69,7 @@ constexpr OptionSpec kSmoothingOptions[] = {
          "off: none. default: interface nodes stay on the reconstructed interfaces. fixed_bbox: the same, "
          "and "
          "the sides of the box stay plane. no_surface_projections: the box is kept, interior interface nodes "
-         "are free; smoother, but volumes may shrink. to_geometry: interface nodes end on the spheres of a "
+         "are free; smoother, but volumes may shrink. to_geometry: interface nodes end on the solids of a "
          "diatom file, otherwise on the reconstructed interface, as nearly as pcol_threshold allows. "
          "geo_smooth: as no_surface_projections, within geo_smooth_max_deviation of the reconstructed "
          "interface. With input_spn the default is no_surface_projections. "

@@ -32,7 +32,7 @@ double square(double x) { return x * x; }
 std::vector<Point2> notched() { return {{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}}; }  // area 8, not convex
 
 std::unique_ptr<Shape> drilled_box() {
-  std::vector<std::unique_ptr<Shape>> holes;
+  std::vector<std::shared_ptr<const Shape>> holes;
   holes.push_back(cylinder({1, 1, -1}, {1, 1, 4}, 0.5, 0));
   holes.push_back(box({1.5, 1.5, 2}, {9, 9, 9}));
   return difference(box({0, 0, 0}, {2, 2, 3}), std::move(holes));
@@ -523,7 +523,7 @@ TEST(Solids, MovesFollowOneAnother) {
 }
 
 TEST(Solids, CornersOfADifferenceAreNotGuessed) {
-  std::vector<std::unique_ptr<Shape>> hole;
+  std::vector<std::shared_ptr<const Shape>> hole;
   hole.push_back(cylinder({2, 2, 0}, {2, 2, 4}, 1, 0));  // its ends lie in faces of the box
   const auto drilled = difference(box({0, 0, 0}, {4, 4, 4}), std::move(hole));
   EXPECT_FALSE(drilled->nearest_on_surface({2, 2, 4.25})) << "the open end of the hole is no surface";

@@ -21,22 +21,23 @@ void take(const Interval& piece, std::size_t first, std::vector<Interval>& piece
 
 class Difference final : public Shape {
  public:
-  Difference(std::unique_ptr<Shape> from, std::vector<std::shared_ptr<const Shape>> removed)
-      : from_(std::move(from)), removed_(std::move(removed)) {
+  // The first one without the others.
+  explicit Difference(std::vector<std::shared_ptr<const Shape>> shapes) : owned_(std::move(shapes)) {
+    for (const auto& shape : owned_) shapes_.push_back(shape.get());
     const Box box = bounds();
     margin_ = 1e-9 * largest(box.hi - box.lo);
   }
 
-  [[nodiscard]] Box bounds() const override { return from_->bounds(); }
+  [[nodiscard]] Box bounds() const override { return from().bounds(); }
 
   [[nodiscard]] bool contains(const Box& box) const override {
-    return from_->contains(box) && std::all_of(removed_.begin(), removed_.end(),
-                                               [&](const auto& shape) { return shape->misses(box); });
+    return from().contains(box) &&
+           std::all_of(removed().begin(), removed().end(), [&](const Shape* s) { return s->misses(box); });
   }
 
   [[nodiscard]] bool misses(const Box& box) const override {
-    return from_->misses(box) || std::any_of(removed_.begin(), removed_.end(),
-                                             [&](const auto& shape) { return shape->contains(box); });
+    return from().misses(box) ||
+           std::any_of(removed().begin(), removed().end(), [&](const Shape* s) { return s->contains(box); });
   }
 
   [[nodiscard]] bool is_gentle(const Box& box) const override {
@@ -59,9 +60,10 @@ class Difference final : public Shape {
         v.size(), [&](const Shape& shape, ChordRow& own) { shape.chords(axis, u, v, own); }, row);
   }
 
-  void line_chords(std::span<const Vec3> from, std::span<const Vec3> step, ChordRow& row) const override {
+  void line_chords(std::span<const Vec3> starts, std::span<const Vec3> steps, ChordRow& row) const override {
     cut(
-        from.size(), [&](const Shape& shape, ChordRow& own) { shape.line_chords(from, step, own); }, row);
+        starts.size(), [&](const Shape& shape, ChordRow& own) { shape.line_chords(starts, steps, own); },
+        row);
   }
 
   // Nothing where the nearest surface of all is one that the others hide.
@@ -71,18 +73,38 @@ class Difference final : public Shape {
     return nearest.point;
   }
 
+  [[nodiscard]] const Shape& within(const Box& box, std::unique_ptr<Shape>& storage) const override {
+    auto* part = dynamic_cast<Difference*>(storage.get());
+    if (part == nullptr) {
+      std::unique_ptr<Difference> made(new Difference);
+      part = made.get();
+      storage = std::move(made);
+    }
+    part->storage_.resize(shapes_.size());
+    part->shapes_.clear();
+    for (std::size_t s = 0; s < shapes_.size(); ++s)
+      part->shapes_.push_back(&shapes_[s]->within(box, part->storage_[s]));
+    part->margin_ = margin_;
+    return *part;
+  }
+
  private:
   struct Surface {
     const Shape* shape;
     std::optional<Vec3> point;
   };
 
-  // That of `from` when no shape knows.
+  Difference() = default;
+
+  [[nodiscard]] const Shape& from() const { return *shapes_[0]; }
+  [[nodiscard]] std::span<const Shape* const> removed() const { return std::span(shapes_).subspan(1); }
+
+  // That of the first shape when none knows.
   [[nodiscard]] Surface nearest_surface(const Vec3& p) const {
-    Surface best{from_.get(), from_->nearest_on_surface(p)};
-    for (const auto& shape : removed_) {
+    Surface best{&from(), std::nullopt};
+    for (const Shape* const shape : shapes_) {
       const std::optional<Vec3> q = shape->nearest_on_surface(p);
-      if (q && (!best.point || norm(*q - p) < norm(*best.point - p))) best = {shape.get(), q};
+      if (q && (!best.point || norm(*q - p) < norm(*best.point - p))) best = {shape, q};
     }
     return best;
   }
@@ -91,27 +113,27 @@ class Difference final : public Shape {
   [[nodiscard]] bool is_hidden(const Vec3& q, const Shape* of) const {
     const Vec3 margin{margin_, margin_, margin_};
     const Box box{q - margin, q + margin};
-    if (of != from_.get() && !from_->contains(box)) return true;
-    return std::any_of(removed_.begin(), removed_.end(),
-                       [&](const auto& shape) { return shape.get() != of && !shape->misses(box); });
+    if (of != &from() && !from().contains(box)) return true;
+    return std::any_of(removed().begin(), removed().end(),
+                       [&](const Shape* s) { return s != of && !s->misses(box); });
   }
 
   // The shapes whose surface may reach the box, unless the box misses this solid.
   [[nodiscard]] std::vector<const Shape*> surfaces_in(const Box& box) const {
     std::vector<const Shape*> found;
     if (misses(box)) return found;
-    if (!from_->contains(box)) found.push_back(from_.get());
-    for (const auto& shape : removed_)
-      if (!shape->misses(box)) found.push_back(shape.get());
+    if (!from().contains(box)) found.push_back(&from());
+    for (const Shape* const shape : removed())
+      if (!shape->misses(box)) found.push_back(shape);
     return found;
   }
 
   template <class ChordsOf>
   void cut(std::size_t lines, const ChordsOf& chords_of, ChordRow& row) const {
-    std::vector<ChordRow> own(removed_.size() + 1);
+    std::vector<ChordRow> own(shapes_.size());
     for (std::size_t s = 0; s < own.size(); ++s) {
       own[s].begin(lines);
-      chords_of(s == 0 ? *from_ : *removed_[s - 1], own[s]);
+      chords_of(*shapes_[s], own[s]);
     }
     LinePieces left(lines);
     for (std::size_t l = 0; l < lines; ++l) {
@@ -125,8 +147,9 @@ class Difference final : public Shape {
     left.append_to(row);
   }
 
-  std::unique_ptr<Shape> from_;
-  std::vector<std::shared_ptr<const Shape>> removed_;
+  std::vector<std::shared_ptr<const Shape>> owned_;  // none in the result of within()
+  std::vector<std::unique_ptr<Shape>> storage_;      // of the result of within()
+  std::vector<const Shape*> shapes_;
   double margin_ = 0;  // length: nearer than this counts as touching
 };
 
@@ -134,7 +157,8 @@ class Difference final : public Shape {
 
 std::unique_ptr<Shape> difference(std::unique_ptr<Shape> from,
                                   std::vector<std::shared_ptr<const Shape>> removed) {
-  return std::make_unique<Difference>(std::move(from), std::move(removed));
+  removed.insert(removed.begin(), std::move(from));
+  return std::make_unique<Difference>(std::move(removed));
 }
 
 }  // namespace sculpt

@@ -8,7 +8,8 @@ namespace {
 
 class Moved final : public Shape {
  public:
-  Moved(std::unique_ptr<Shape> shape, const Frame& frame) : shape_(std::move(shape)), frame_(frame) {}
+  Moved(std::unique_ptr<Shape> shape, const Frame& frame)
+      : owned_(std::move(shape)), shape_(owned_.get()), frame_(frame) {}
 
   // Moves it on: its frame becomes what `frame` makes of it.
   void move(const Frame& frame) {
@@ -69,6 +70,18 @@ class Moved final : public Shape {
     return outward(*near);
   }
 
+  [[nodiscard]] const Shape& within(const Box& box, std::unique_ptr<Shape>& storage) const override {
+    auto* part = dynamic_cast<Moved*>(storage.get());
+    if (part == nullptr) {
+      auto made = std::make_unique<Moved>(nullptr, frame_);
+      part = made.get();
+      storage = std::move(made);
+    }
+    part->shape_ = &shape_->within(around(box), part->owned_);
+    part->frame_ = frame_;
+    return *part;
+  }
+
  private:
   [[nodiscard]] Vec3 turned_inward(const Vec3& v) const {
     return {dot(v, frame_.axis[0]), dot(v, frame_.axis[1]), dot(v, frame_.axis[2])};
@@ -87,7 +100,8 @@ class Moved final : public Shape {
     return {middle - reach, middle + reach};
   }
 
-  std::unique_ptr<Shape> shape_;
+  std::unique_ptr<Shape> owned_;  // of the result of within(): storage
+  const Shape* shape_;
   Frame frame_;
 };
 

@@ -522,6 +522,50 @@ TEST(Solids, MovesFollowOneAnother) {
   EXPECT_EQ(twice->bounds().hi, (Vec3{10, 0, 8}));
 }
 
+// Tells its chords only within a box: a stand-in for solids with many facets.
+class Searched final : public Shape {
+ public:
+  explicit Searched(std::unique_ptr<Shape> shape) : shape_(std::move(shape)) {}
+  [[nodiscard]] Box bounds() const override { return shape_->bounds(); }
+  [[nodiscard]] bool contains(const Box& box) const override { return shape_->contains(box); }
+  [[nodiscard]] bool misses(const Box& box) const override { return shape_->misses(box); }
+  [[nodiscard]] bool is_gentle(const Box& box) const override { return shape_->is_gentle(box); }
+  [[nodiscard]] bool has_edges(const Box& box) const override { return shape_->has_edges(box); }
+  [[nodiscard]] std::size_t steepest_axis(const Vec3& p) const override { return shape_->steepest_axis(p); }
+  void chords(std::size_t, double, std::span<const double>, ChordRow&) const override {
+    FAIL() << "a search";
+  }
+  void line_chords(std::span<const Vec3>, std::span<const Vec3>, ChordRow&) const override {
+    FAIL() << "a search";
+  }
+  [[nodiscard]] const Shape& within(const Box& box, std::unique_ptr<Shape>& storage) const override {
+    EXPECT_FALSE(shape_->misses(box));
+    storage.reset();
+    return *shape_;
+  }
+
+ private:
+  std::unique_ptr<Shape> shape_;
+};
+
+TEST(Solids, SearchesAreLeftToTheShapesWithin) {
+  std::vector<std::shared_ptr<const Shape>> slot;
+  slot.push_back(box({1.5, -9, -9}, {2, 9, 9}));
+  const Frame quarter{{0, 0, 5}, {{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}}};
+  const auto shape =
+      moved(difference(std::make_unique<Searched>(samples()[1].make()), std::move(slot)), quarter);
+  std::unique_ptr<Shape> storage;
+  for (int cell = 0; cell < 2; ++cell) {  // the second one finds the storage of the first
+    const Shape& local = shape->within({{-1, 1, 6}, {0, 3, 8}}, storage);
+    const std::vector<Piece> pieces = pieces_on(local, {-0.5, 0, 7}, {0, 1, 0});
+    ASSERT_EQ(pieces.size(), 2U);
+    EXPECT_DOUBLE_EQ(pieces[0].lo, 1);
+    EXPECT_DOUBLE_EQ(pieces[0].hi, 1.5);
+    EXPECT_DOUBLE_EQ(pieces[1].lo, 2);
+    EXPECT_DOUBLE_EQ(pieces[1].hi, 3);
+  }
+}
+
 TEST(Solids, CornersOfADifferenceAreNotGuessed) {
   std::vector<std::shared_ptr<const Shape>> hole;
   hole.push_back(cylinder({2, 2, 0}, {2, 2, 4}, 1, 0));  // its ends lie in faces of the box

@@ -8,7 +8,7 @@ namespace sculpt {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::int64_t kCells = 16;
+constexpr std::int64_t kCells = 20;
 constexpr double kHalfWidth = 2;
 
 std::string package(int material, const std::string& lines) {

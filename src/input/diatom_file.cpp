@@ -130,9 +130,7 @@ class DiatomParser {
       } else if (const auto parameter = find_parameter(word, body.kind->parameters)) {
         parse_parameter(word, *parameter, body);
       } else if (const auto placing = find_parameter(word, placing_parameters())) {
-        numbers_.clear();
-        parse_numbers(word, placing_parameters()[*placing], numbers_);
-        body.placement = placement_of(placing_parameters()[*placing].kind, numbers_).after(body.placement);
+        parse_placing(word, placing_parameters()[*placing], body.placement);
       } else {
         unknown_in_body(word, *body.kind, block);
       }
@@ -185,6 +183,17 @@ class DiatomParser {
                      fmt::format("found {} after '{}', expected {}", follows ? "''" : "the end of the line",
                                  parameter.names[0], expected_numbers(parameter.kind)));
     body.stl_path = words_.take().text;
+  }
+
+  void parse_placing(const DiatomWord& word, const ShapeParameter& parameter, Placement& placement) {
+    numbers_.clear();
+    parse_numbers(word, parameter, numbers_);
+    placement = placement_of(parameter.kind, numbers_).after(placement);
+    try {
+      check_placement(placement);
+    } catch (const Error& error) {
+      words_.fail_at(word.line, error.what());
+    }
   }
 
   // Adds the numbers that follow the keyword.

@@ -194,6 +194,15 @@ Placement placement_of(ParameterKind kind, std::span<const double> numbers) {
   return rotation(numbers[0], point(numbers, 1), numbers.size() > 4 ? point(numbers, 4) : Vec3{});
 }
 
+void check_placement(const Placement& placement) {
+  if (!(placement.scale <= kLargest && placement.scale >= 1 / kLargest))
+    throw Error(fmt::format("found scale {:g} in all, expected {:g} to {:g}", placement.scale, 1 / kLargest,
+                            kLargest));
+  if (!(largest(placement.frame.origin) <= kLargest))
+    throw Error(fmt::format("found a move by {:g} in all, expected up to {:g}",
+                            largest(placement.frame.origin), kLargest));
+}
+
 std::unique_ptr<Shape> make_solid(const ShapeKind& kind, ShapeValues values, const Placement& placement) {
   const bool from_elsewhere = kind.along_axes && placement.turns();
   const Placement before = from_elsewhere ? magnification(placement.scale) : placement;

@@ -57,6 +57,9 @@ void check_numbers(ParameterKind kind, std::string_view name, std::span<const do
 // What the checked numbers of a placing parameter do.
 [[nodiscard]] Placement placement_of(ParameterKind kind, std::span<const double> numbers);
 
+// Throws Error when it scales or moves beyond what numbers can hold.
+void check_placement(const Placement& placement);
+
 // The solid of checked values, placed; not for STL files. Throws Error when it is none.
 [[nodiscard]] std::unique_ptr<Shape> make_solid(const ShapeKind& kind, ShapeValues values,
                                                 const Placement& placement);

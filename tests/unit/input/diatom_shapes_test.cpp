@@ -82,6 +82,16 @@ INSTANTIATE_TEST_SUITE_P(
              0.64}),
     [](const auto& tested) { return std::string(tested.param.shape); });
 
+TEST(DiatomKeywords, MayBeShortened) {
+  expect_same_inserts(
+      "INS Tor CENT=0,0,0 NORM 0 0 1\nMAJ 0.8 $ comment\nMIN 0.3 ROT=20,1,0,0 TRA 0.1 0 0 SCA 0.9\n"
+      "* comment\nDEL Sph CE 1 0 0 RAD 0.5 ENDD\nENDI\n",
+      insert("torus",
+             "center = 0 0 0\naxis = 0 0 1\nr1 = 0.8\nr2 = 0.3\nrotate = 20 1 0 0\n"
+             "translate = 0.1 0 0\nscale = 0.9\n" +
+                 remove("sphere", "centre = 1 0 0\nr = 0.5")));
+}
+
 TEST(DiatomPlacing, AppliesTheTransformationsInTheirOrder) {
   const std::string cube = block("0 0 0", "1 0.5 0.25");
   expect_same_inserts(insert("box", cube + "rotate 90 0 0 1 translate 0.5 0 0"),

@@ -241,6 +241,9 @@ TEST(Diatom, NamesTheLineOfAMistakeInAShape) {
   expect_error(
       insert_error("sphere", "delete box\np1 0 0 0\nendinsert\n"),
       "line 7: found 'endinsert', expected 'p1', 'p2', 'rotate', 'translate', 'scale' or 'enddelete'");
+  expect_error(insert_error("sphere", "scale 1e30\nscale 1e30\n"), "line 6: found scale 1e+60 in all");
+  expect_error(insert_error("sphere", "translate 1 0 0\ntranslate 0 -2e60 0\n"),
+               "line 6: found a move by 2e+60 in all");
   expect_error(insert_error("sphere", "delete box\np1 0 0 0\nenddelete\n"), "line 5: the box has no 'p2'");
 }
 

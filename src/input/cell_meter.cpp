@@ -10,7 +10,7 @@ namespace sculpt {
 namespace {
 
 constexpr double kAbsent = 1e-12;    // smaller fractions are rounding
-constexpr std::size_t kDeepest = 4;  // halvings of a cell in which surfaces have edges
+constexpr std::size_t kDeepest = 3;  // halvings of a cell in which surfaces have edges
 
 double line(const Box& cell, std::size_t axis, std::size_t l, std::size_t lines) {
   const double t = (static_cast<double>(l) + 0.5) / static_cast<double>(lines);

@@ -79,6 +79,9 @@ std::vector<std::string> idle_grid_options(const Deck& deck) {
     if (const std::string idle = given_of(deck, options); !idle.empty())
       told.push_back(fmt::format("{}; no effect: {}", why, idle));
   };
+  if (!deck.input_vfrac.empty())
+    tell("the volume fractions have a grid of their own",
+         {"nelx", "nely", "nelz", "xmin", "xmax", "ymin", "ymax", "zmin", "zmax", "cell_size"});
   if (deck.input_mesh.empty() && deck.input_mesh_pamgen.empty()) {
     tell("there is no input mesh",
          {"feature_angle", "exterior_sliding", "input_mesh_partition", "input_mesh_material"});

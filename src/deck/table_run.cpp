@@ -189,7 +189,13 @@ constexpr OptionSpec kInputOptions[] = {
      .group = kI,
      .slot = &Deck::input_vfrac,
      .help = "Volume fractions from an earlier run",
-     .about = "Base name of files written with volfrac_file.",
+     .about =
+         "Base name of files written with volfrac_file: <base>.e.<ranks>.<rank> of any number of ranks, or "
+         "the joined file <base>.e. The grid, the materials, the void and the defaults of smoothing are "
+         "those "
+         "of the run that wrote them. void_mat names the material to leave out when the files have no void. "
+         "smooth = to_geometry and capture are refused: the geometry is not in the files.",
+     .supported = true,
      .unset = "none",
      .argument = "base name"},
     {.name = "input_micro",
@@ -316,7 +322,14 @@ constexpr OptionSpec kOutputOptions[] = {
      .group = kO,
      .slot = &Deck::volfrac_file,
      .help = "Write the volume fractions",
-     .about = "Base name of Exodus files with the grid's volume fractions.",
+     .about = "Each rank writes <base>.e.<ranks>.<rank>: the cells of the grid with the fraction of every "
+              "material "
+              "as an element variable, before filtering and without scale and translation. input_vfrac reads "
+              "them. "
+              "Layers of micro_expand are among the cells. Refined cells and the hexes of a general "
+              "input_mesh are "
+              "written as they are, but cannot be read back.",
+     .supported = true,
      .unset = "none",
      .argument = "base name"},
     {.name = "quality",

@@ -145,6 +145,23 @@ const std::vector<Rule>& rules() {
       {[](const Deck& d) { return d.align && d.periodic; },
        {"align", "periodic"},
        "align turns the grid, periodic = true needs it along the coordinates"},
+      {[](const Deck& d) {
+         return d.given("input_vfrac") && (d.smooth == kSmoothToGeometry || d.capture != kCaptureOff);
+       },
+       {"input_vfrac", "smooth", "capture"},
+       "smooth = to_geometry and capture need the geometry itself, which volume fractions do not have; give "
+       "diatom_file or stl_file"},
+      {[](const Deck& d) {
+         return d.given("volfrac_file") &&
+                (d.volfrac_file == d.exodus_file || d.volfrac_file == d.input_vfrac);
+       },
+       {"volfrac_file", "exodus_file", "input_vfrac"},
+       "volfrac_file would write over other files of the run; its base name must differ",
+       Tell::kAll},
+      {[](const Deck& d) { return d.given("input_vfrac") && d.input_vfrac == d.exodus_file; },
+       {"input_vfrac", "exodus_file"},
+       "the mesh would be written over the volume fractions; its base name must differ",
+       Tell::kAll},
       {empty_x, {"xmin", "xmax"}, "xmin must be smaller than xmax"},
       {empty_y, {"ymin", "ymax"}, "ymin must be smaller than ymax"},
       {empty_z, {"zmin", "zmax"}, "zmin must be smaller than zmax"},
@@ -304,8 +321,8 @@ std::string stem(const std::string& file_name) { return std::filesystem::path(fi
 std::string default_base_name(const Deck& deck) {
   std::string base = stem(deck.input_file);
   for (const std::string* name :
-       {&deck.stl_file, &deck.diatom_file, &deck.input_vfrac, &deck.input_micro, &deck.input_cart_exo,
-        &deck.input_spn, &deck.input_stitch, &deck.input_mesh, &deck.input_mesh_pamgen})
+       {&deck.stl_file, &deck.diatom_file, &deck.input_micro, &deck.input_cart_exo, &deck.input_spn,
+        &deck.input_stitch, &deck.input_mesh, &deck.input_mesh_pamgen})
     if (base.empty()) base = stem(*name);
   return base.empty() ? "sculpt" : base;
 }
@@ -314,7 +331,10 @@ std::string default_base_name(const Deck& deck) {
 
 void apply_input_defaults(Deck& deck) {
   redefault(deck, "exodus_file", deck.exodus_file, default_base_name(deck));
-  if (!deck.given("input_spn")) return;
+  if (deck.given("input_spn")) apply_voxel_defaults(deck);
+}
+
+void apply_voxel_defaults(Deck& deck) {
   redefault(deck, "smooth", deck.smooth, static_cast<int>(kSmoothNoSurfaceProjections));
   redefault(deck, "csmooth", deck.csmooth, static_cast<int>(kCsmoothHermite));
   redefault(deck, "laplacian_iters", deck.laplacian_iters, 10);

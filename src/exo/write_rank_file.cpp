@@ -49,9 +49,13 @@ void write_rank_file(const std::string& path, const RankMesh& mesh) {
   const std::size_t variables = mesh.element_variables.size();
   check(mesh.element_values.size() == mesh.times.size() * variables,
         "rank file: values of steps are missing");
-  write_exodus(path, mesh, ExodusTables{}, [&](std::size_t step, std::size_t variable) {
+  write_rank_file(path, mesh, [&](std::size_t step, std::size_t variable) {
     return std::span<const double>(mesh.element_values[step * variables + variable]);
   });
+}
+
+void write_rank_file(const std::string& path, const RankMesh& mesh, const ElementValues& values) {
+  write_exodus(path, mesh, ExodusTables{}, values);
 }
 
 void publish(const std::string& temporary, const std::string& final_name) {

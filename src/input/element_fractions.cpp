@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "sculpt/par/finding.hpp"
 
 namespace sculpt {
 namespace {
 
 constexpr double kTolerance = 1e-6, kSinglePrecision = 1e-7;
 constexpr double kAbsent = 1e-12;
+constexpr double kRounding = 1e-12;  // of sums in double precision
 
 // The number at the end of a name; 0 when there is none that an id can be.
 std::int64_t trailing_number(const std::string& name) {
@@ -33,39 +35,70 @@ std::vector<std::int64_t> ids_of(std::span<const std::string> variables) {
   return ids;
 }
 
+// The entries of a cell.
+struct Cell {
+  std::span<const std::int32_t> variable;
+  std::span<const double> value;
+};
+Cell cell_of(const Fractions& f, std::size_t c) {
+  const auto from = static_cast<std::size_t>(f.offset[c]);
+  const std::size_t count = static_cast<std::size_t>(f.offset[c + 1]) - from;
+  return {std::span(f.material).subspan(from, count), std::span(f.value).subspan(from, count)};
+}
+
 // What is wrong with the values of an element; empty when nothing is.
-std::string complaint(std::span<const std::string> variables, std::span<const double> value) {
+std::string complaint(std::span<const std::string> variables, const Cell& cell) {
   double sum = 0;
-  for (std::size_t v = 0; v < value.size(); ++v) {
-    if (!(value[v] >= -kTolerance && value[v] <= 1 + kTolerance))
-      return fmt::format("fraction {} of variable '{}', expected 0 to 1", value[v], variables[v]);
-    sum += value[v];
+  for (std::size_t e = 0; e < cell.value.size(); ++e) {
+    const double value = cell.value[e];
+    if (!(value >= -kTolerance && value <= 1 + kTolerance))
+      return fmt::format("fraction {} of variable '{}', expected 0 to 1", value,
+                         variables[static_cast<std::size_t>(cell.variable[e])]);
+    sum += value;
   }
-  if (std::fabs(sum - 1) <= kTolerance + kSinglePrecision * static_cast<double>(value.size())) return {};
+  if (std::fabs(sum - 1) <= kTolerance + kSinglePrecision * static_cast<double>(variables.size())) return {};
   return fmt::format("the fractions of its materials sum to {:.9g}, expected 1", sum);
 }
 
 // Collective. Throws what is wrong with the element that has the lowest number.
 void refuse_wrong(const Comm& comm, const std::string& path, std::span<const std::string> variables,
-                  std::span<const GlobalId> element, std::span<const double> value) {
-  constexpr GlobalId kNoElement = std::numeric_limits<GlobalId>::max();
-  const std::size_t k = variables.size();
-  GlobalId lowest = kNoElement;
-  std::string text;
+                  std::span<const GlobalId> element, const Fractions& found) {
+  Finding bad;
   for (std::size_t e = 0; e < element.size(); ++e) {
-    if (element[e] >= lowest) continue;
-    const std::string found = complaint(variables, value.subspan(k * e, k));
-    if (found.empty()) continue;
-    lowest = element[e];
-    text = fmt::format("'{}', element {}: {}", path, lowest + 1, found);
+    if (element[e] >= bad.at) continue;
+    const std::string text = complaint(variables, cell_of(found, e));
+    if (!text.empty()) bad = {element[e], fmt::format("'{}', element {}: {}", path, element[e] + 1, text)};
   }
-  const GlobalId first = comm.min(lowest);
-  if (first == kNoElement) return;
-  const auto root = static_cast<int>(comm.min(std::int64_t{lowest == first ? comm.rank() : comm.size()}));
-  throw AgreedError(comm.broadcast(text, root));
+  refuse_first(comm, bad);
+}
+
+// Appends a cell of fractions that are right up to rounding.
+void add_cell(const Cell& cell, Fractions& to) {
+  const auto fraction = [&](std::size_t e, double least) {
+    return cell.value[e] < least ? 0.0 : std::min(cell.value[e], 1.0);
+  };
+  const auto sum = [&](double least) {
+    double total = 0;
+    for (std::size_t e = 0; e < cell.value.size(); ++e) total += fraction(e, least);
+    return total;
+  };
+  const bool exact = std::fabs(sum(0) - 1) <= kRounding;
+  const double least = exact ? 0 : kAbsent, whole = exact ? 1 : sum(least);
+  for (std::size_t e = 0; e < cell.value.size(); ++e)
+    if (fraction(e, least) > 0) to.add(cell.variable[e], fraction(e, least) / whole);
+  to.end_cell();
 }
 
 }  // namespace
+
+Fractions checked_fractions(const Comm& comm, const std::string& path, std::span<const std::string> variables,
+                            std::span<const GlobalId> element, Fractions found) {
+  refuse_wrong(comm, path, variables, element, found);
+  Fractions fractions;
+  fractions.reserve(element.size(), found.material.size());
+  for (std::size_t e = 0; e < element.size(); ++e) add_cell(cell_of(found, e), fractions);
+  return fractions;
+}
 
 ElementFractions element_fractions(const Comm& comm, const std::string& path,
                                    std::span<const std::string> variables, std::span<const GlobalId> element,
@@ -77,28 +110,24 @@ ElementFractions element_fractions(const Comm& comm, const std::string& path,
   collectively(comm, "reading fractions of elements", [&] {
     check(value.size() == k * element.size(), "an element needs a value of each variable");
   });
-  refuse_wrong(comm, path, variables, element, value);
 
   ElementFractions result;
   const std::vector<std::int64_t> ids = ids_of(variables);
   std::vector<std::size_t> order(k);  // variable of each material
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
-  for (const std::size_t v : order) result.table.block_id.push_back(ids[v]);
-
-  Fractions& fractions = result.fractions;
-  fractions.reserve(element.size(), element.size() + element.size() / 8);
-  for (std::size_t e = 0; e < element.size(); ++e) {
-    const std::span<const double> of = value.subspan(k * e, k);
-    const auto fraction = [&](std::size_t m) {
-      return of[order[m]] < kAbsent ? 0.0 : std::min(of[order[m]], 1.0);
-    };
-    double sum = 0;
-    for (std::size_t m = 0; m < k; ++m) sum += fraction(m);
-    for (std::size_t m = 0; m < k; ++m)
-      if (fraction(m) > 0) fractions.add(static_cast<std::int32_t>(m), fraction(m) / sum);
-    fractions.end_cell();
+  std::vector<std::string> names;
+  for (const std::size_t v : order) {
+    result.table.block_id.push_back(ids[v]);
+    names.push_back(variables[v]);
   }
+  Fractions found;
+  for (std::size_t e = 0; e < element.size(); ++e) {
+    for (std::size_t m = 0; m < k; ++m)
+      if (const double v = value[k * e + order[m]]; v != 0) found.add(static_cast<std::int32_t>(m), v);
+    found.end_cell();
+  }
+  result.fractions = checked_fractions(comm, path, names, element, std::move(found));
   return result;
 }
 

@@ -90,7 +90,41 @@ Choice choose(const std::string& path, int ranks, const Found& found) {
   none_fits(path, ranks, found);
 }
 
+// The number of the parts of a mesh; 0: it is one file.
+int number_of_parts(const std::string& path, const Found& found) {
+  if (found.parts.empty() && !found.whole)
+    throw Error(fmt::format("found neither '{}' nor parts of it, expected '{}.<ranks>.<rank>' of all ranks",
+                            path, path));
+  if (found.parts.empty()) return 0;
+  const auto& [ranks, there] = *found.parts.begin();
+  if (found.parts.size() > 1)
+    throw Error(fmt::format("found parts of '{}' for {} and for {} ranks, expected those of one run", path,
+                            ranks, std::next(found.parts.begin())->first));
+  int missing = 0;
+  while (there.contains(missing)) ++missing;
+  if (missing < ranks)
+    throw Error(fmt::format("found {} of the {} parts of '{}': '{}' is missing; expected {}", there.size(),
+                            ranks, path, part_file_name(path, ranks, missing), range_of_parts(path, ranks)));
+  return ranks;
+}
+
 }  // namespace
+
+std::vector<std::string> find_parts_of_any_number(const Comm& comm, const std::string& path, const Log& log) {
+  std::vector<int> choice;
+  collectively(comm, "looking for " + path, [&] {
+    if (comm.rank() != 0) return;
+    const Found found = look_for(path);
+    choice = {number_of_parts(path, found), found.whole ? 1 : 0};
+  });
+  comm.broadcast(choice, 0);
+  const int ranks = choice[0];
+  if (ranks == 0) return {path};
+  if (choice[1] != 0) log.line("Found '{}' and its {} parts: the parts are used", path, ranks);
+  std::vector<std::string> names;
+  for (int r = 0; r < ranks; ++r) names.push_back(part_file_name(path, ranks, r));
+  return names;
+}
 
 std::string decomp_command(const std::string& path, int ranks) {
   return fmt::format("made by: decomp -p {} {}", ranks, path);

@@ -26,13 +26,12 @@ struct Format {
   Open open;  // null: not supported yet
 };
 
-constexpr std::array<Format, 7> kFormats{{
+constexpr std::array<Format, 6> kFormats{{
     {"input_spn", &Deck::input_spn, on_its_grid<open_spn>},
     {"input_micro", &Deck::input_micro, on_its_grid<open_micro>},
     {"diatom_file", &Deck::diatom_file, open_diatom},
     {"input_cart_exo", &Deck::input_cart_exo, on_its_grid<open_cart_exo>},
     {"stl_file", &Deck::stl_file, open_stl},
-    {"input_vfrac", &Deck::input_vfrac, nullptr},
     {"input_stitch", &Deck::input_stitch, nullptr},
 }};
 

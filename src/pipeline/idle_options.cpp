@@ -83,6 +83,9 @@ std::vector<std::string> idle_grid_options(const Deck& deck) {
     tell("the input is no geometry", {"cell_size", "bbox_expand", "align"});
   else if (deck.given("cell_size"))
     tell("cell_size makes the grid", {"nelx", "nely", "nelz"});
+  if (!deck.input_vfrac.empty())
+    tell("the volume fractions have a grid of their own",
+         {"nelx", "nely", "nelz", "xmin", "xmax", "ymin", "ymax", "zmin", "zmax"});
   if (deck.input_mesh.empty() && deck.input_mesh_pamgen.empty()) {
     tell("there is no input mesh",
          {"feature_angle", "exterior_sliding", "input_mesh_partition", "input_mesh_material"});

@@ -6,6 +6,7 @@
 #include "pipeline/layers.hpp"
 #include "pipeline/periodicity.hpp"
 #include "pipeline/unstructured_overlay.hpp"
+#include "pipeline/vfrac_source.hpp"
 #include "sculpt/distribute/cartesian.hpp"
 #include "sculpt/vfrac/fractions.hpp"
 
@@ -98,7 +99,8 @@ Overlay read_on_grid(const Comm& comm, const Deck& deck, MaterialSource& source,
 Overlay read_overlay(const Comm& comm, const Deck& deck, const Log& log, Stages& stages) {
   for (const std::string& idle : idle_grid_options(deck)) log.line("WARNING: {}", idle);
   if (has_input_mesh(deck)) return read_unstructured(comm, deck, log, stages);
-  const auto source = open_source(comm, deck, log, std::nullopt);
+  const auto source =
+      deck.input_vfrac.empty() ? open_source(comm, deck, log, std::nullopt) : open_vfrac(comm, deck, log);
   if (!source->is_data()) stages.end("read geometry");
   return read_on_grid(comm, deck, *source, log, stages);
 }

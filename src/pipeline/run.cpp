@@ -19,6 +19,7 @@
 #include "pipeline/overlay.hpp"
 #include "pipeline/periodicity.hpp"
 #include "pipeline/unstructured_overlay.hpp"
+#include "pipeline/vfrac_source.hpp"
 #include "pipeline/void_regions.hpp"
 #include "sculpt/base/fixed_point.hpp"
 #include "sculpt/brep/brep.hpp"
@@ -554,7 +555,9 @@ WriteOptions write_options(const Deck& deck, const MaterialTable& materials, con
   for (const IdName& n : deck.material_name) w.block_names[n.id] = n.name;
   for (const IdName& n : deck.sideset_name) w.side_set_names[n.id] = n.name;
   for (const IdName& n : deck.nodeset_name) w.node_set_names[n.id] = n.name;
-  if (deck.quality_variable) w.variables.push_back({"scaled_jacobian", scaled_jacobians(mesh)});
+  if (deck.quality_variable)
+    w.variables.push_back(
+        {"scaled_jacobian", [quality = scaled_jacobians(mesh)](LocalId h) { return quality[at(h)]; }});
   return w;
 }
 
@@ -589,6 +592,14 @@ void write_grid(const Comm& comm, const Deck& deck, const Overlay& overlay, cons
   stages.end("export grid");
 }
 
+// Before any work is done: whether all files could be written.
+void check_outputs(const Comm& comm, const Deck& deck, const std::string& quality_file) {
+  check_output_folder(comm, "exodus_file", deck.exodus_file);
+  if (exports_grid(deck)) check_output_folder(comm, "exodus_file", export_name(deck));
+  if (!deck.volfrac_file.empty()) check_output_folder(comm, "volfrac_file", deck.volfrac_file);
+  if (!quality_file.empty()) check_output_file(comm, "quality", quality_file);
+}
+
 void check_names(const Deck& deck) {
   for (const auto* names : {&deck.material_name, &deck.sideset_name, &deck.nodeset_name})
     for (const IdName& n : *names)
@@ -599,15 +610,15 @@ void check_names(const Deck& deck) {
 
 }  // namespace
 
-int run(const Comm& comm, const Deck& deck) {
-  const Log log(comm.rank() == 0 && !deck.quiet);
+int run(const Comm& comm, const Deck& given) {
+  const Log log(comm.rank() == 0 && !given.quiet);
   Stages stages;
+  const Deck deck = with_defaults_of_fractions(comm, given, log);
   check_names(deck);
-  check_output_folder(comm, deck.exodus_file);
-  if (exports_grid(deck)) check_output_folder(comm, export_name(deck));
   const std::string quality_file = quality_file_name(deck);
-  if (!quality_file.empty()) check_output_file(comm, "quality", quality_file);
+  check_outputs(comm, deck, quality_file);
   Overlay overlay = read_overlay(comm, deck, log, stages);
+  if (!deck.volfrac_file.empty()) write_fractions(comm, deck, overlay, log, stages);
   refuse_nothing_to_capture(deck, overlay);
   log.line("begin SCULPT meshing...");
   log.line("(1/9) computing normals...");

@@ -29,6 +29,7 @@ class RankPart {
     out_.title = fmt::format("SCULPT Version {}", SCULPT_VERSION);
   }
 
+  // Without the values of variables.
   RankMesh build(const std::vector<SideFace>& side_faces) {
     number_hexes();
     find_shared_nodes();
@@ -36,9 +37,11 @@ class RankPart {
     add_node_sets();
     add_side_sets(side_faces);
     if (comm_.size() > 1) add_element_maps();
-    add_variables();
+    name_variables();
     return std::move(out_);
   }
+  // After build(): the hexes in the order of the file.
+  [[nodiscard]] const std::vector<LocalId>& hexes() const { return file_hexes_; }
 
  private:
   void number_hexes() {
@@ -248,15 +251,11 @@ class RankPart {
           .push_back(static_cast<std::int32_t>(i) + 1);
   }
 
-  void add_variables() {
+  void name_variables() {
     if (options_.variables.empty()) return;
     out_.times = {0};
-    for (const HexVariable& variable : options_.variables) {
+    for (const HexVariable& variable : options_.variables)
       out_.element_variables.push_back({variable.name, std::vector<std::uint8_t>(out_.blocks.size(), 1)});
-      std::vector<double>& values = out_.element_values.emplace_back();
-      values.reserve(file_hexes_.size());
-      for (const LocalId h : file_hexes_) values.push_back(variable.value[at(h)]);
-    }
   }
 
   const Comm& comm_;
@@ -274,11 +273,18 @@ class RankPart {
 
 WriteSummary write_mesh(const Comm& comm, const HexMesh& mesh, const std::vector<SideFace>& side_faces,
                         const WriteOptions& options) {
-  const RankMesh part = RankPart(comm, mesh, options).build(side_faces);
+  RankPart share(comm, mesh, options);
+  const RankMesh part = share.build(side_faces);
+  std::vector<double> values;
+  const auto values_of = [&](std::size_t, std::size_t variable) {
+    values.clear();
+    for (const LocalId h : share.hexes()) values.push_back(options.variables[variable].value(h));
+    return std::span<const double>(values);
+  };
   const std::string final_name = rank_file_name(options.base, comm.size(), comm.rank());
   const std::string temporary = temporary_name(final_name);
   try {
-    collectively(comm, "writing " + final_name, [&] { write_rank_file(temporary, part); });
+    collectively(comm, "writing " + final_name, [&] { write_rank_file(temporary, part, values_of); });
     collectively(comm, "publishing " + final_name, [&] { publish(temporary, final_name); });
   } catch (...) {
     discard(temporary);
@@ -309,9 +315,9 @@ void check_writable(const std::string& setting, const std::string& final_name) {
 
 }  // namespace
 
-void check_output_folder(const Comm& comm, const std::string& base) {
+void check_output_folder(const Comm& comm, const std::string& option, const std::string& base) {
   collectively(comm, "checking the output folder", [&] {
-    check_writable("exodus_file = " + base, rank_file_name(base, comm.size(), comm.rank()));
+    check_writable(option + " = " + base, rank_file_name(base, comm.size(), comm.rank()));
   });
 }
 

@@ -37,6 +37,8 @@ using ReadText = std::function<std::string(const std::string& file_name)>;
 // file) and smooth, csmooth, laplacian_iters (3, 2, 10 with input_spn). What the user gave stays; what is set
 // here is listed in deck.redefaulted.
 void apply_input_defaults(Deck& deck);
+// Those of smooth, csmooth and laplacian_iters that belong to input_spn.
+void apply_voxel_defaults(Deck& deck);
 
 // Refuses options that are not supported yet and options that contradict each other. num_procs must be final:
 // under an MPI launcher set it to the number of ranks first. Error: one sentence naming the options and their

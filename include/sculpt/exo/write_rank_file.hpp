@@ -6,6 +6,9 @@
 //     write_rank_file(temporary_name(final), mesh);   every rank on its own
 //     ... all ranks agree that this went well ...
 //     publish(temporary_name(final), final);          or discard(temporary_name(final))
+#include <cstddef>
+#include <functional>
+#include <span>
 #include <string>
 
 #include "sculpt/exo/rank_mesh.hpp"
@@ -29,6 +32,13 @@ namespace sculpt {
 // Local. Throws Error with the file and the cause (disk full, no permission, a limit of the format); the file
 // is removed then. Throws BrokenPromise when the mesh contradicts itself.
 void write_rank_file(const std::string& path, const RankMesh& mesh);
+
+// The values of one element variable at one step, both from 0; valid until the next call. Steps ascend, and
+// in each step the variables.
+using ElementValues = std::function<std::span<const double>(std::size_t step, std::size_t variable)>;
+
+// The same, but the values come from `values` and not from the mesh: they need not be in memory all at once.
+void write_rank_file(const std::string& path, const RankMesh& mesh, const ElementValues& values);
 
 // Local. Puts a finished file in place, over an earlier one. Throws Error, leaving the earlier file as it
 // was.

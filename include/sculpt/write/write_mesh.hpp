@@ -3,6 +3,7 @@
 // depend on the number of ranks; the files appear under their final names only when all ranks have written
 // theirs.
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -21,7 +22,7 @@ struct SideFace {
 // A number for every hex, in the files as an element variable at time 0.
 struct HexVariable {
   std::string name;
-  std::vector<double> value;  // per local hex
+  std::function<double(LocalId hex)> value;  // asked of owned hexes
 };
 
 // The nodes of a set.
@@ -50,8 +51,9 @@ struct WriteSummary {
 WriteSummary write_mesh(const Comm& comm, const HexMesh& mesh, const std::vector<SideFace>& side_faces,
                         const WriteOptions& options);
 
-// Collective. Fails where a run could not write its files in the end, before any work is done.
-void check_output_folder(const Comm& comm, const std::string& base);
+// Collective. Fails where a run could not write the files base.e.N.r, which an option names, before any work
+// is done.
+void check_output_folder(const Comm& comm, const std::string& option, const std::string& base);
 // Collective. The same for a single file that an option names.
 void check_output_file(const Comm& comm, const std::string& option, const std::string& file_name);
 

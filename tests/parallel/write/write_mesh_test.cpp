@@ -222,11 +222,8 @@ TEST(WriteMesh, WritesAVariableOfEveryHex) {
   const Comm comm = Comm::world();
   const HexMesh mesh = run_stages(comm, three_grains()).mesh;
   WriteOptions options = options_for(folder.file("v"));
-  options.variables = {{"key", {}}, {"twice", {}}};
-  for (const GlobalId id : mesh.hex_id) {
-    options.variables[0].value.push_back(static_cast<double>(id));
-    options.variables[1].value.push_back(2 * static_cast<double>(id));
-  }
+  const auto key = [&mesh](LocalId h) { return static_cast<double>(mesh.hex_id[at(h)]); };
+  options.variables = {{"key", key}, {"twice", [&key](LocalId h) { return 2 * key(h); }}};
   (void)write_mesh(comm, mesh, {}, options);
   std::map<std::int64_t, double> by_element;
   for (const RankMesh& file : all_files(comm, folder.file("v"))) {
@@ -288,10 +285,10 @@ TEST(WriteQualityFile, IsCompleteOrNotThere) {
 TEST(CheckOutputFolder, SaysBeforeTheWorkWhatWouldFailAfterIt) {
   const SharedFolder folder;
   const Comm comm = Comm::world();
-  EXPECT_NO_THROW(check_output_folder(comm, folder.file("mesh")));
+  EXPECT_NO_THROW(check_output_folder(comm, "exodus_file", folder.file("mesh")));
   EXPECT_EQ(folder.files(), std::set<std::string>{});
   try {
-    check_output_folder(comm, folder.file("absent/mesh"));
+    check_output_folder(comm, "exodus_file", folder.file("absent/mesh"));
     ADD_FAILURE() << "nothing was thrown";
   } catch (const AgreedError& e) {
     EXPECT_NE(std::string(e.what()).find("absent does not exist"), std::string::npos) << e.what();
@@ -299,7 +296,7 @@ TEST(CheckOutputFolder, SaysBeforeTheWorkWhatWouldFailAfterIt) {
   const std::string taken = rank_file_name(folder.file("taken"), comm.size(), comm.size() - 1);
   if (comm.rank() == 0) fs::create_directory(taken);  // the name of the last rank's file is a folder
   comm.barrier();
-  EXPECT_THROW(check_output_folder(comm, folder.file("taken")), AgreedError);
+  EXPECT_THROW(check_output_folder(comm, "exodus_file", folder.file("taken")), AgreedError);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class Assembly {
       const std::size_t first = shapes_.size();
       assemble(package);
       if (shapes_.size() > first) continue;
-      log_.line("WARNING: {}, line {}: package '{}' has no solid and fills nothing", path_, package.line,
+      log_.line("WARNING: {}, line {}: package '{}' fills nothing: it has no solid", path_, package.line,
                 package.name);
     }
     if (shapes_.empty()) throw Error(path_ + ": all of its STL files are empty, expected at least one solid");
@@ -50,6 +50,7 @@ class Assembly {
       cut(shape, std::move(removed), insert.line);
       shape.material = package.material;
       shape.package = package.name;
+      shape.line = package.line;
       shapes_.push_back(std::move(shape));
     }
   }

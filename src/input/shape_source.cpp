@@ -222,21 +222,22 @@ bool overlap(const Box& a, const Box& b) {
 }
 
 // Packages, which are shapes in a row, that lie outside of the space of the mesh.
-void warn_of_packages_outside(const std::vector<MaterialShape>& shapes, const Box& space, const Log& log) {
+void warn_of_packages_outside(const std::vector<MaterialShape>& shapes, const std::string& path,
+                              const Box& space, const Log& log) {
   constexpr std::int64_t kMostWarnings = 20;
   std::int64_t outside = 0;
   for (std::size_t first = 0; first < shapes.size();) {
     std::size_t last = first;
     bool reaches = false;
-    for (; last < shapes.size() && shapes[last].package == shapes[first].package; ++last)
+    for (; last < shapes.size() && shapes[last].line == shapes[first].line; ++last)
       reaches = reaches || overlap(shapes[last].shape->bounds(), space);
     if (!reaches && ++outside <= kMostWarnings)
-      log.line("WARNING: package '{}' lies outside the box of the grid and fills nothing",
-               shapes[first].package);
+      log.line("WARNING: {}, line {}: package '{}' fills nothing: it lies outside the box of the grid", path,
+               shapes[first].line, shapes[first].package);
     first = last;
   }
   if (outside > kMostWarnings)
-    log.line("WARNING: {} more packages lie outside the box of the grid", outside - kMostWarnings);
+    log.line("WARNING: {}: {} more packages fill nothing", path, outside - kMostWarnings);
 }
 
 // Collective. The principal axes of what the shapes fill; rank 0 knows all of it.
@@ -302,7 +303,8 @@ std::unique_ptr<MaterialSource> shape_source(const Comm& comm, const Deck& deck,
   collectively(comm, "making the grid of " + option, [&] {
     Grid grid = overlay ? grid_over(*overlay, shapes.size()) : geometry_grid(deck, option, bounds_of(shapes));
     if (!overlay) tell_geometry_grid(deck, grid, log);
-    warn_of_packages_outside(shapes, overlay ? *overlay : space_of(grid), log);
+    if (!deck.diatom_file.empty())
+      warn_of_packages_outside(shapes, deck.diatom_file, overlay ? *overlay : space_of(grid), log);
     source =
         std::make_unique<ShapeSource>(deck, std::move(shapes), std::move(solids), std::move(grid), axes, log);
   });

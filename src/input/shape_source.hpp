@@ -16,6 +16,7 @@ struct MaterialShape {
   // Of faceted solids whose surfaces are asked for: divided into them. Null: the shape has one surface.
   std::shared_ptr<const FacetMesh> facets{};
   std::string package{};  // of a diatom file
+  std::int64_t line = 0;  // of the package in the file
 };
 
 // Collective. The shapes, at least one, are in the order of insertion, the same on all ranks; `option` names

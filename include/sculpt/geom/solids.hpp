@@ -18,9 +18,10 @@ struct Frame {
   std::array<Vec3, 3> axis{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // unit vectors at right angles, right-handed
 };
 
-// A shape seen from elsewhere: what is at p in the shape is at the place that the frame gives p.
+// The shape at another place: what is at p in the shape is where the frame puts the local point p.
 [[nodiscard]] std::unique_ptr<Shape> moved(std::unique_ptr<Shape> shape, const Frame& frame);
-// Without what lies in any of the others.
+// Without what lies in any of the others. Its nearest_on_surface() tells nothing where the nearest of all
+// their surfaces is one that the others take away or cover.
 [[nodiscard]] std::unique_ptr<Shape> difference(std::unique_ptr<Shape> from,
                                                 std::vector<std::shared_ptr<const Shape>> removed);
 

@@ -12,6 +12,7 @@ namespace sculpt {
 namespace {
 
 constexpr double kTolerance = 1e-9;  // of the size; of sines
+constexpr double kSharpest = 1e-6;   // sine: sharper corners tell the plane of a face too roughly
 
 struct Face {
   Vec3 normal;                // outward unit vector
@@ -144,8 +145,7 @@ class Hull {
       for (std::size_t b = a + 1; b < points.size(); ++b)
         for (std::size_t c = b + 1; c < points.size(); ++c) {
           const Vec3 normal = cross(points[b] - points[a], points[c] - points[a]);
-          if (norm(normal) <= kTolerance * norm(points[b] - points[a]) * norm(points[c] - points[a]))
-            continue;
+          if (norm(normal) <= kSharpest * norm(points[b] - points[a]) * norm(points[c] - points[a])) continue;
           add_face(direction_of(normal), a);
           add_face(-direction_of(normal), a);
         }
@@ -221,44 +221,43 @@ std::unique_ptr<Shape> hull_of(std::string_view what, std::span<const Vec3> poin
   return std::make_unique<Convex>(std::move(hull.faces()), bounds_of(points));
 }
 
-// Some direction leads to infinity within all half spaces through one point: one along the intersection of
-// two of their planes, if the normals span space.
-bool is_bounded(std::span<const Vec3> normals) {
-  bool spanning = false;
-  for (const Vec3& a : normals)
-    for (const Vec3& b : normals) {
-      Vec3 along = cross(a, b);
-      if (norm(along) <= kTolerance) continue;
-      along = direction_of(along);
-      const auto leaves = [&](const Vec3& n) { return dot(n, along) > kTolerance; };
-      if (std::none_of(normals.begin(), normals.end(), leaves)) return false;
-      spanning = true;
+// No direction leads to infinity within all half spaces. If one does, so does one along two of their planes,
+// unless all of them are parallel to a line or a plane.
+bool is_bounded(std::span<const HalfSpace> sides) {
+  bool any = false;
+  for (const HalfSpace& a : sides)
+    for (const HalfSpace& b : sides) {
+      const Vec3 along = cross(a.outward, b.outward);
+      if (norm(along) <= kSharpest) continue;
+      const auto stops = [&](const HalfSpace& s) { return dot(s.outward, along) > kTolerance * norm(along); };
+      if (std::none_of(sides.begin(), sides.end(), stops)) return false;
+      any = true;
     }
-  return spanning;
+  return any;
 }
 
-// The corners of what all half spaces have in common.
-std::vector<Vec3> corners_of(std::span<const Vec3> normals, std::span<const double> offsets) {
-  std::vector<Vec3> candidates, corners;
-  double size = 0;
-  const std::size_t count = normals.size();
-  for (std::size_t a = 0; a < count; ++a)
-    for (std::size_t b = a + 1; b < count; ++b)
-      for (std::size_t c = b + 1; c < count; ++c) {
-        const double volume = dot(normals[a], cross(normals[b], normals[c]));
-        if (std::fabs(volume) <= kTolerance) continue;
-        candidates.push_back((1 / volume) * (offsets[a] * cross(normals[b], normals[c]) +
-                                             offsets[b] * cross(normals[c], normals[a]) +
-                                             offsets[c] * cross(normals[a], normals[b])));
+// The corners of what all half spaces have in common, which is about as large as `size` and not far from
+// `around`.
+std::vector<Vec3> corners_of(std::span<const HalfSpace> sides, const Vec3& around, double size) {
+  std::vector<double> heights;
+  for (const HalfSpace& side : sides) heights.push_back(dot(side.outward, side.point - around));
+  std::vector<Vec3> corners;
+  const auto add = [&](const Vec3& p) {
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      if (dot(sides[i].outward, p) > heights[i] + kTolerance * size) return;
+    const auto same = [&](const Vec3& q) { return largest(q - (around + p)) <= 10 * kTolerance * size; };
+    if (std::none_of(corners.begin(), corners.end(), same)) corners.push_back(around + p);
+  };
+  for (std::size_t a = 0; a < sides.size(); ++a)
+    for (std::size_t b = a + 1; b < sides.size(); ++b)
+      for (std::size_t c = b + 1; c < sides.size(); ++c) {
+        const Vec3 bc = cross(sides[b].outward, sides[c].outward),
+                   ca = cross(sides[c].outward, sides[a].outward),
+                   ab = cross(sides[a].outward, sides[b].outward);
+        const double volume = dot(sides[a].outward, bc);
+        if (std::fabs(volume) > kSharpest)
+          add((1 / volume) * (heights[a] * bc + heights[b] * ca + heights[c] * ab));
       }
-  for (const double offset : offsets) size = std::max(size, std::fabs(offset));
-  for (const Vec3& p : candidates) {
-    bool kept = true;
-    for (std::size_t i = 0; i < count; ++i)
-      kept = kept && dot(normals[i], p) <= offsets[i] + kTolerance * size;
-    const auto same = [&](const Vec3& q) { return largest(q - p) <= 10 * kTolerance * size; };
-    if (kept && std::none_of(corners.begin(), corners.end(), same)) corners.push_back(p);
-  }
   return corners;
 }
 
@@ -278,23 +277,28 @@ std::unique_ptr<Shape> box(const Vec3& p1, const Vec3& p2) {
 std::unique_ptr<Shape> polyhedron(std::span<const Vec3> points) { return hull_of("a polyhedron", points); }
 
 std::unique_ptr<Shape> planes(std::span<const HalfSpace> sides) {
-  std::vector<Vec3> normals;
-  std::vector<double> offsets;
-  for (const HalfSpace& side : sides) {
+  std::vector<HalfSpace> unit_sides(sides.begin(), sides.end());
+  double size = 0;
+  for (HalfSpace& side : unit_sides) {
     expect_finite("a point of a plane", side.point);
     expect_finite("the normal of a plane", side.outward);
     if (!(norm(side.outward) > 0)) throw Error("the normal of a plane is (0 0 0), expected a direction");
-    normals.push_back(direction_of(side.outward));
-    offsets.push_back(dot(normals.back(), side.point - sides[0].point));
+    side.outward = direction_of(side.outward);
+    size = std::max(size, largest(side.point - sides[0].point));
   }
-  if (!is_bounded(normals))
+  if (!is_bounded(unit_sides))
     throw Error(fmt::format("{} planes leave a way to infinity open, expected planes that enclose a solid",
                             sides.size()));
-  std::vector<Vec3> corners = corners_of(normals, offsets);
+  // The points of the planes may lie far from the solid: a first look tells where it is.
+  const std::vector<Vec3> rough = corners_of(unit_sides, sides[0].point, size);
+  std::vector<Vec3> corners;
+  if (!rough.empty()) {
+    const Box bounds = bounds_of(rough);
+    corners = corners_of(unit_sides, 0.5 * (bounds.lo + bounds.hi), largest(bounds.hi - bounds.lo));
+  }
   if (corners.size() < 4)
     throw Error(
         fmt::format("{} planes enclose no volume, expected planes that enclose a solid", sides.size()));
-  for (Vec3& corner : corners) corner += sides[0].point;
   return hull_of("a solid between planes", corners);
 }
 

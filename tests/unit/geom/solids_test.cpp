@@ -109,6 +109,49 @@ TEST(Solids, CornersOfADifferenceAreNotGuessed) {
   EXPECT_EQ(drilled->nearest_on_surface({3.25, 2, 2}), (Vec3{3, 2, 2}));
 }
 
+TEST(Solids, PlanesMayBeGivenByFarPointsAndHaveNoPartInTheSolid) {
+  const double far = 1e6;
+  const auto cube = planes(std::vector<HalfSpace>{{{0, far, far}, {-1, 0, 0}},
+                                                  {{1, far, 0}, {1, 0, 0}},
+                                                  {{far, 0, 0}, {0, -1, 0}},
+                                                  {{far, 1, far}, {0, 1, 0}},
+                                                  {{far, far, 0}, {0, 0, -1}},
+                                                  {{far, far, 1}, {0, 0, 1}},
+                                                  {{far, far, far}, {1, 1, 1}}});
+  EXPECT_LT(largest(cube->bounds().lo), 1e-9);
+  EXPECT_LT(largest(cube->bounds().hi - Vec3{1, 1, 1}), 1e-9);
+  EXPECT_TRUE(cube->contains({{0.1, 0.1, 0.1}, {0.9, 0.9, 0.9}}));
+  EXPECT_TRUE(cube->misses({{1.1, 0.1, 0.1}, {1.2, 0.9, 0.9}}));
+}
+
+TEST(Solids, FacesOfAHexNeedNotBePlane) {
+  const auto hex = polyhedron(std::vector<Vec3>{
+      {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1.2, 1.2, 1.2}, {0, 1, 1}});
+  // Six triangles around the last corner, with the origin tetrahedra of volume 1.2 / 6.
+  EXPECT_NEAR(share_of(*hex, hex->bounds(), 0, 100) * 1.2 * 1.2 * 1.2, 1.2, 1e-3);
+}
+
+TEST(Solids, TheTipOfAPyramidIsOneCorner) {
+  const auto pyramid = planes(std::vector<HalfSpace>{{{0, 0, 0}, {0, 0, -1}},
+                                                     {{0, 0, 0.7}, {1, 0, 1}},
+                                                     {{0, 0, 0.7}, {-1, 0, 1}},
+                                                     {{0, 0, 0.7}, {0, 1, 1}},
+                                                     {{0, 0, 0.7}, {0, -1, 1}}});
+  EXPECT_NEAR(share_of(*pyramid, pyramid->bounds(), 2, 100), 1.0 / 3, 1e-4);
+}
+
+TEST(Solids, NearestPointsOfAnEllipsoidAcrossItsPlanesOfSymmetry) {
+  const auto disc = ellipsoid({0, 0, 0}, {2, 1, 0.5});
+  const auto distance = [&](const Vec3& p) { return norm(disc->nearest_on_surface(p).value() - p); };
+  EXPECT_NEAR(distance({0, 0, 0}), 0.5, 1e-12);
+  EXPECT_NEAR(distance({1.9, 0, 0}), 0.1, 1e-12) << "beyond the centre of curvature of the tip at 1.875";
+  EXPECT_NEAR(distance({-5, 0, 0}), 3, 1e-12);
+  EXPECT_NEAR(distance({0, 3, 0}), 2, 1e-12);
+  // Before it: at x = 4 p / (4 - 0.25), z = 0.5 sqrt(1 - x^2 / 4).
+  const double x = 4 * 1.5 / 3.75, z = 0.5 * std::sqrt(1 - x * x / 4);
+  EXPECT_NEAR(distance({1.5, 0, 0}), std::hypot(x - 1.5, z), 1e-12);
+}
+
 std::string message_of(const std::function<void()>& make) {
   try {
     make();

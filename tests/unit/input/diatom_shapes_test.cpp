@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "input/diatom_shapes.hpp"
 #include "input_fixture.hpp"
 
 namespace sculpt {
@@ -90,6 +91,19 @@ TEST(DiatomKeywords, MayBeShortened) {
              "center = 0 0 0\naxis = 0 0 1\nr1 = 0.8\nr2 = 0.3\nrotate = 20 1 0 0\n"
              "translate = 0.1 0 0\nscale = 0.9\n" +
                  remove("sphere", "centre = 1 0 0\nr = 0.5")));
+}
+
+TEST(DiatomKeywords, AreInTheDocs) {
+  std::ifstream page(SCULPT_SOURCE_DIR "/docs/shapes.md");
+  const std::string text(std::istreambuf_iterator<char>(page), {});
+  const auto expect_named = [&](std::string_view word) {
+    EXPECT_TRUE(contains(text, "`" + std::string(word) + "`")) << word;
+  };
+  for (const ShapeKind& kind : shape_kinds()) {
+    EXPECT_TRUE(contains(text, "\n| `" + std::string(kind.names[0]) + "`")) << kind.names[0];
+    for (const ShapeParameter& parameter : kind.parameters) expect_named(parameter.names[0]);
+  }
+  for (const ShapeParameter& parameter : placing_parameters()) expect_named(parameter.names[0]);
 }
 
 TEST(DiatomPlacing, AppliesTheTransformationsInTheirOrder) {

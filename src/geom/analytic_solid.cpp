@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geom/largest_axis.hpp"
+
 namespace sculpt {
 namespace {
 
@@ -46,10 +48,7 @@ std::size_t AnalyticSolid::steepest_axis(const Vec3& point) const {
     const Vec3 beside = point + 1e-6 * radius_ * Vec3{0.61, 0.57, 0.55};
     normal = nearest(beside) - beside;
   }
-  std::size_t axis = 0;
-  for (std::size_t d = 1; d < 3; ++d)
-    if (std::fabs(normal[d]) > std::fabs(normal[axis])) axis = d;
-  return axis;
+  return largest_axis(normal);
 }
 
 void AnalyticSolid::chords(std::size_t axis, double u, std::span<const double> v, ChordRow& row) const {

@@ -1,6 +1,7 @@
 #pragma once
 // What solids with simple formulas have in common: all answers follow from the pieces of one line, the
 // nearest point of the surface, and the distance to the edges.
+#include <cmath>
 #include <vector>
 
 #include "geom/line_pieces.hpp"
@@ -36,6 +37,12 @@ class AnalyticSolid : public Shape {
 
   // Of the ball around the bounds.
   [[nodiscard]] double radius() const { return radius_; }
+  // How far beyond a face its crossings may lie: rounding.
+  [[nodiscard]] double slack() const { return 1e-9 * radius_; }
+  // Adds s if it is a number and not far outside.
+  void add_place(double s, std::vector<double>& places) const {
+    if (std::fabs(s) <= 2 * radius_) places.push_back(s);
+  }
   // Adds what is inside between these places on a line, which include all its crossings with the surface and
   // may include others.
   void add_inside(const Vec3& from, const Vec3& direction, std::vector<double>& places,

@@ -26,8 +26,6 @@ class Extrusion final : public AnalyticSolid {
       : AnalyticSolid(bounds_of(section, height)), section_(section), height_(height) {}
 
  private:
-  static constexpr double kSlack = 1e-9;  // of the size: crossings may lie this far beyond a side
-
   [[nodiscard]] static Point2 in_section(const Vec3& p) { return {p.x, p.y}; }
 
   void cut(const Vec3& from, const Vec3& direction, std::vector<Interval>& pieces) const override {
@@ -37,16 +35,12 @@ class Extrusion final : public AnalyticSolid {
     add_inside(from, direction, places, pieces);
   }
 
-  void add_place(double s, std::vector<double>& places) const {
-    if (std::fabs(s) <= 2 * radius()) places.push_back(s);
-  }
-
   void add_crossing(std::size_t side, const Vec3& p, const Vec3& d, std::vector<double>& places) const {
     const Point2 &a = section_.corner(side), &b = section_.side_end(side);
     const double du = b[0] - a[0], dv = b[1] - a[1];
     const double s = (du * (a[1] - p.y) - dv * (a[0] - p.x)) / (du * d.y - dv * d.x);
     const Point2 at{p.x + s * d.x, p.y + s * d.y};
-    if (distance(section_.nearest_on_side(side, at), at) <= kSlack * radius()) add_place(s, places);
+    if (distance(section_.nearest_on_side(side, at), at) <= slack()) add_place(s, places);
   }
 
   [[nodiscard]] bool inside(const Vec3& p) const override {

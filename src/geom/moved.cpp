@@ -1,6 +1,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geom/largest_axis.hpp"
 #include "sculpt/geom/solids.hpp"
 
 namespace sculpt {
@@ -36,10 +37,7 @@ class Moved final : public Shape {
     const Box box = shape_->bounds();
     if (largest(normal) < 1e-9 * norm(box.hi - box.lo))
       normal = frame_.axis[shape_->steepest_axis(inward(point))];
-    std::size_t axis = 0;
-    for (std::size_t d = 1; d < 3; ++d)
-      if (std::fabs(normal[d]) > std::fabs(normal[axis])) axis = d;
-    return axis;
+    return largest_axis(normal);
   }
 
   void chords(std::size_t axis, double u, std::span<const double> v, ChordRow& row) const override {

@@ -34,8 +34,6 @@ class Revolution final : public AnalyticSolid {
   }
 
  private:
-  static constexpr double kSlack = 1e-9;  // of the size: crossings may lie this far beyond a side
-
   [[nodiscard]] static Point2 in_section(const Vec3& p) { return {std::hypot(p.x, p.y), p.z}; }
   [[nodiscard]] bool on_axis(std::size_t side) const {
     return section_.corner(side)[0] == 0 && section_.side_end(side)[0] == 0;
@@ -62,10 +60,6 @@ class Revolution final : public AnalyticSolid {
     add_inside(from, direction, places, pieces);
   }
 
-  void add_place(double s, std::vector<double>& places) const {
-    if (std::fabs(s) <= 2 * radius()) places.push_back(s);
-  }
-
   // With the cone (dz r)^2 = (dz r1 + dr (z - z1))^2, and its mirror image, where they are as high as the
   // side.
   void add_crossings(std::size_t side, const Vec3& p, const Vec3& d, std::vector<double>& places) const {
@@ -77,10 +71,10 @@ class Revolution final : public AnalyticSolid {
                  c = dz * dz * (p.x * p.x + p.y * p.y) - w * w;
     const double rest = b * b - a * c;
     if (!(rest >= 0)) return;
-    const double q = -(b + std::copysign(std::sqrt(rest), b)), slack = kSlack * radius();
+    const double q = -(b + std::copysign(std::sqrt(rest), b));
     for (const double s : {q / a, c / q}) {
       const double z = p.z + s * d.z;
-      if (z >= std::min(z1, z2) - slack && z <= std::max(z1, z2) + slack) add_place(s, places);
+      if (z >= std::min(z1, z2) - slack() && z <= std::max(z1, z2) + slack()) add_place(s, places);
     }
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geom/largest_axis.hpp"
+
 namespace sculpt {
 
 Box Sphere::bounds() const {
@@ -24,13 +26,7 @@ bool Sphere::misses(const Box& box) const {
   return dot(nearest, nearest) >= radius_ * radius_;
 }
 
-std::size_t Sphere::steepest_axis(const Vec3& point) const {
-  const Vec3 normal = point - center_;
-  std::size_t axis = 0;
-  for (std::size_t d = 1; d < 3; ++d)
-    if (std::fabs(normal[d]) > std::fabs(normal[axis])) axis = d;
-  return axis;
-}
+std::size_t Sphere::steepest_axis(const Vec3& point) const { return largest_axis(point - center_); }
 
 bool Sphere::is_gentle(const Box& box) const {
   constexpr double kBoxes = 4;  // across the ball

@@ -178,6 +178,9 @@ TEST(Solids, WhatIsNoSolidIsRefused) {
   expect("inner radius 2", [&] { (void)cylinder(o, z, 2, 2); });
   expect("inner radius -1", [&] { (void)cylinder(o, z, 2, -1); });
   expect("both ends of its axis", [&] { (void)cylinder(z, z, 2, 1); });
+  expect("finite", [&] { (void)cylinder({nan, 0, 0}, z, 2, 1); });
+  expect("finite", [&] { (void)extrusion(o, z, {1, nan, 0}, notched()); });
+  expect("finite", [&] { (void)planes(std::vector<HalfSpace>{{o, {nan, 0, 0}}}); });
   expect("radii 0 and 0", [&] { (void)cone(o, z, 0, 0); });
   expect("radius of a cone is -1", [&] { (void)cone(o, z, 1, -1); });
   expect("both ends of its axis", [&] { (void)cone(o, o, 1, 1); });

@@ -196,7 +196,9 @@ bool FacetPatch::overlaps_itself() const {
 }
 
 std::optional<double> FacetPatch::share_of(const Box& box) const {
-  if (!(box.lo == box_.lo && box.hi == box_.hi) || overlaps_itself()) return std::nullopt;
+  if (!(box.lo == box_.lo && box.hi == box_.hi)) return std::nullopt;
+  // Facets that all look one way do not overlap: what is behind them is inside.
+  if (!is_gentle(box) && overlaps_itself()) return std::nullopt;
   return std::clamp(mean_winding(facets_, box_, start_, winding_), 0.0, 1.0);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geom/largest_axis.hpp"
+#include "geom/sheet_share.hpp"
 
 namespace sculpt {
 namespace {
@@ -36,6 +37,10 @@ bool AnalyticSolid::misses(const Box& box) const {
 bool AnalyticSolid::is_gentle(const Box& box) const {
   constexpr double kBoxes = 2;  // in the least radius of curvature
   return turns_little(middle_of(box), half_diagonal(box), kBoxes * largest(box.hi - box.lo));
+}
+
+std::optional<double> AnalyticSolid::share_of(const Box& box) const {
+  return is_gentle(box) ? sheet_share(*this, box) : std::nullopt;
 }
 
 bool AnalyticSolid::has_edges(const Box& box) const {

@@ -17,6 +17,8 @@ class AnalyticSolid : public Shape {
   [[nodiscard]] bool is_gentle(const Box& box) const final;
   [[nodiscard]] bool has_edges(const Box& box) const final;
   [[nodiscard]] std::size_t steepest_axis(const Vec3& point) const final;
+  [[nodiscard]] bool is_costly() const final { return true; }
+  [[nodiscard]] std::optional<double> share_of(const Box& box) const final;
   void chords(std::size_t axis, double u, std::span<const double> v, ChordRow& row) const final;
   void line_chords(std::span<const Vec3> from, std::span<const Vec3> step, ChordRow& row) const final;
   [[nodiscard]] std::optional<Vec3> nearest_on_surface(const Vec3& p) const final { return nearest(p); }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "geom/line_pieces.hpp"
+#include "geom/sheet_share.hpp"
 #include "sculpt/geom/solids.hpp"
 
 namespace sculpt {
@@ -43,6 +44,11 @@ class Difference final : public Shape {
   [[nodiscard]] bool is_gentle(const Box& box) const override {
     const std::vector<const Shape*> reaching = surfaces_in(box);
     return reaching.empty() || (reaching.size() == 1 && reaching[0]->is_gentle(box));
+  }
+
+  [[nodiscard]] bool is_costly() const override { return true; }
+  [[nodiscard]] std::optional<double> share_of(const Box& box) const override {
+    return is_gentle(box) ? sheet_share(*this, box) : std::nullopt;
   }
 
   [[nodiscard]] bool has_edges(const Box& box) const override {

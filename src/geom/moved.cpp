@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "geom/largest_axis.hpp"
+#include "geom/sheet_share.hpp"
 #include "sculpt/geom/solids.hpp"
 
 namespace sculpt {
@@ -30,6 +31,11 @@ class Moved final : public Shape {
   [[nodiscard]] bool misses(const Box& box) const override { return shape_->misses(around(box)); }
   [[nodiscard]] bool is_gentle(const Box& box) const override { return shape_->is_gentle(around(box)); }
   [[nodiscard]] bool has_edges(const Box& box) const override { return shape_->has_edges(around(box)); }
+
+  [[nodiscard]] bool is_costly() const override { return true; }
+  [[nodiscard]] std::optional<double> share_of(const Box& box) const override {
+    return is_gentle(box) ? sheet_share(*this, box) : std::nullopt;
+  }
 
   [[nodiscard]] std::size_t steepest_axis(const Vec3& point) const override {
     const std::optional<Vec3> near = nearest_on_surface(point);

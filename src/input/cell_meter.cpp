@@ -110,16 +110,14 @@ template <class Cell>
 void CellMeter::add_shares(const Cell& part, std::size_t depth, double weight) {
   look_into(bounds_of(part));
   const auto steepest = [&](const Shape& s) { return steepest_in(s, part); };
-  const bool gentle = is_gentle(bounds_of(part), steepest);
-  const std::optional<double> share = gentle ? std::nullopt : share_of_one(part);
+  const std::optional<double> share = share_of_one(part);
   if (!share && depth < kDeepest && is_rough(bounds_of(part), steepest)) {
     add_eighths(part, depth + 1, weight);
     return;
   }
-  const auto lines = lines_of(part, steepest(shape(0)));
   if (share) {
     covered_[0] = *share;
-  } else if (gentle) {
+  } else if (const auto lines = lines_of(part, steepest(shape(0))); is_gentle(bounds_of(part), steepest)) {
     // The error of the midpoint rule falls with the square of the number of lines: two numbers cancel it.
     const std::size_t most = depth < 2 ? 16 : 8;
     sample(lines, most, 4.0 / 3);
@@ -128,6 +126,7 @@ void CellMeter::add_shares(const Cell& part, std::size_t depth, double weight) {
     sample(lines, std::max<std::size_t>(kMostLines >> depth, 8), 1);
   }
   double covered = 0;
+  if (share && filled_) covered_[1] = 1 - *share;
   for (std::size_t s = 0; s < reaching_.size(); ++s) {
     shares_.push_back({material(s), weight * covered_[s]});
     covered += covered_[s];
@@ -195,15 +194,17 @@ template <class Steepest>
 bool CellMeter::is_rough(const Box& bounds, const Steepest& steepest) const {
   const std::size_t axis = steepest(shape(0));
   for (std::size_t s = 0; s + (filled_ ? 1 : 0) < reaching_.size(); ++s) {
-    if (shape(s).has_edges(bounds)) return true;
+    if (shape(s).has_edges(bounds) || (shape(s).is_costly() && !shape(s).is_gentle(bounds))) return true;
     if (steepest(shape(s)) != axis && shape(s).has_edges(shape(s).bounds())) return true;
   }
   return false;
 }
 
-// The exact share of the only shape that counts, where it can tell that.
+// The share of the only shape that has a surface in the cell, where it can tell that. Another one may fill
+// the rest.
 std::optional<double> CellMeter::share_of_one(const Box& cell) const {
-  return reaching_.size() == 1 ? shape(0).share_of(cell) : std::nullopt;
+  if (reaching_.size() != (filled_ ? 2 : 1)) return std::nullopt;
+  return shape(0).share_of(cell);
 }
 std::optional<double> CellMeter::share_of_one(const HexCorners&) { return std::nullopt; }
 

@@ -32,6 +32,8 @@ class Shape {
   [[nodiscard]] virtual bool is_gentle(const Box& box) const = 0;
   // Whether the surface has edges or corners that reach the box; may be true although none does.
   [[nodiscard]] virtual bool has_edges(const Box& box) const = 0;
+  // Whether lines through it take so long that boxes are better halved until it is gentle in them.
+  [[nodiscard]] virtual bool is_costly() const { return false; }
   // The axis whose lines cross the surface near this point most steeply; the lowest one when several do.
   [[nodiscard]] virtual std::size_t steepest_axis(const Vec3& point) const = 0;
   // Adds to the row, in which as many lines are asked for as v is long, the pieces that the solid cuts from
@@ -45,7 +47,7 @@ class Shape {
     (void)p;
     return std::nullopt;
   }
-  // The share of the box that lies in the solid, where the shape can tell it exactly.
+  // The share of the box that lies in the solid, within 5e-4, where the shape can tell it faster than lines.
   [[nodiscard]] virtual std::optional<double> share_of(const Box& box) const {
     (void)box;
     return std::nullopt;

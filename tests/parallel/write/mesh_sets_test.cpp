@@ -85,7 +85,16 @@ Sets sets_of(const Comm& comm, const Case& input, std::int32_t left_out) {
 }
 
 TEST(MeshSets, AreTheSameAloneAndTogether) {
-  const Case input = grains({9, 8, 7}, 14, 4, 5);
+  // Two rooms of material 1 that do not touch, in a box of the three others.
+  const Case input = voxels("rooms", {9, 8, 7}, 4, [](const Index3& c) {
+    const auto within = [&](const Index3& lo, const Index3& hi) {
+      for (std::size_t d = 0; d < 3; ++d)
+        if (c[d] < lo[d] || c[d] > hi[d]) return false;
+      return true;
+    };
+    if (within({1, 1, 1}, {2, 3, 2}) || within({5, 4, 3}, {7, 6, 5})) return 1;
+    return c[0] < 4 ? (c[1] < 4 ? 0 : 2) : (c[2] < 3 ? 3 : 0);
+  });
   for (const bool is_periodic : {false, true})
     for (const std::int32_t left_out : {-1, 0}) {
       const Case with = is_periodic ? periodic(input) : input;

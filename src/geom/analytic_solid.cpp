@@ -40,7 +40,7 @@ bool AnalyticSolid::is_gentle(const Box& box) const {
 }
 
 std::optional<double> AnalyticSolid::share_of(const Box& box) const {
-  return is_gentle(box) ? sheet_share(*this, box) : std::nullopt;
+  return has_edges(box) ? std::nullopt : sheet_share(*this, box);
 }
 
 bool AnalyticSolid::has_edges(const Box& box) const {
@@ -72,9 +72,16 @@ void AnalyticSolid::line_chords(std::span<const Vec3> from, std::span<const Vec3
   cut_lines(from.size(), line, row);
 }
 
+std::vector<double>& AnalyticSolid::places_for_this_thread() {
+  thread_local std::vector<double> places;
+  places.clear();
+  return places;
+}
+
 template <class CutLine>
 void AnalyticSolid::cut_lines(std::size_t lines, const CutLine& cut_one, ChordRow& row) const {
-  LinePieces pieces(lines);
+  thread_local LinePieces pieces;
+  pieces.clear();
   for (std::size_t l = 0; l < lines; ++l) {
     cut_one(l, pieces);
     pieces.end_line();

@@ -37,6 +37,8 @@ class AnalyticSolid : public Shape {
   // At most one face comes within `reach` of p, and it has no radius of curvature below `least_radius` there.
   [[nodiscard]] virtual bool turns_little(const Vec3& p, double reach, double least_radius) const = 0;
 
+  // An empty list that keeps its storage from call to call.
+  [[nodiscard]] static std::vector<double>& places_for_this_thread();
   // Of the ball around the bounds.
   [[nodiscard]] double radius() const { return radius_; }
   // How far beyond a face its crossings may lie: rounding.

@@ -48,7 +48,7 @@ class Difference final : public Shape {
 
   [[nodiscard]] bool is_costly() const override { return true; }
   [[nodiscard]] std::optional<double> share_of(const Box& box) const override {
-    return is_gentle(box) ? sheet_share(*this, box) : std::nullopt;
+    return has_edges(box) ? std::nullopt : sheet_share(*this, box);
   }
 
   [[nodiscard]] bool has_edges(const Box& box) const override {
@@ -141,7 +141,7 @@ class Difference final : public Shape {
       own[s].begin(lines);
       chords_of(*shapes_[s], own[s]);
     }
-    LinePieces left(lines);
+    LinePieces left;
     for (std::size_t l = 0; l < lines; ++l) {
       for (std::size_t k = 0; k < own[0].layers(); ++k)
         if (own[0].lo(k)[l] < own[0].hi(k)[l]) left.pieces().push_back({own[0].lo(k)[l], own[0].hi(k)[l]});

@@ -29,7 +29,7 @@ class Extrusion final : public AnalyticSolid {
   [[nodiscard]] static Point2 in_section(const Vec3& p) { return {p.x, p.y}; }
 
   void cut(const Vec3& from, const Vec3& direction, std::vector<Interval>& pieces) const override {
-    std::vector<double> places;
+    std::vector<double>& places = places_for_this_thread();
     for (const double z : {0.0, height_}) add_place((z - from.z) / direction.z, places);
     for (std::size_t side = 0; side < section_.size(); ++side) add_crossing(side, from, direction, places);
     add_inside(from, direction, places, pieces);

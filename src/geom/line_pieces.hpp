@@ -13,8 +13,11 @@ struct Interval {
 
 class LinePieces {
  public:
-  explicit LinePieces(std::size_t lines) { ends_.reserve(lines); }
-
+  // Forgets all lines and keeps the storage.
+  void clear() {
+    pieces_.clear();
+    ends_.clear();
+  }
   // Where the pieces of the next line are to be appended.
   std::vector<Interval>& pieces() { return pieces_; }
   void end_line() { ends_.push_back(pieces_.size()); }

@@ -29,12 +29,12 @@ class Moved final : public Shape {
   }
   [[nodiscard]] bool contains(const Box& box) const override { return shape_->contains(around(box)); }
   [[nodiscard]] bool misses(const Box& box) const override { return shape_->misses(around(box)); }
-  [[nodiscard]] bool is_gentle(const Box& box) const override { return shape_->is_gentle(around(box)); }
-  [[nodiscard]] bool has_edges(const Box& box) const override { return shape_->has_edges(around(box)); }
+  [[nodiscard]] bool is_gentle(const Box& box) const override { return shape_->is_gentle(ball_of(box)); }
+  [[nodiscard]] bool has_edges(const Box& box) const override { return shape_->has_edges(ball_of(box)); }
 
   [[nodiscard]] bool is_costly() const override { return true; }
   [[nodiscard]] std::optional<double> share_of(const Box& box) const override {
-    return is_gentle(box) ? sheet_share(*this, box) : std::nullopt;
+    return has_edges(box) ? std::nullopt : sheet_share(*this, box);
   }
 
   [[nodiscard]] std::size_t steepest_axis(const Vec3& point) const override {
@@ -102,6 +102,13 @@ class Moved final : public Shape {
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t d = 0; d < 3; ++d) reach[a] += std::fabs(frame_.axis[a][d]) * half[d];
     return {middle - reach, middle + reach};
+  }
+
+  // A cube of the shape in the same ball, for questions that balls answer.
+  [[nodiscard]] Box ball_of(const Box& box) const {
+    const double half = 0.5 * norm(box.hi - box.lo) / std::sqrt(3.0);
+    const Vec3 middle = inward(0.5 * (box.lo + box.hi));
+    return {middle - Vec3{half, half, half}, middle + Vec3{half, half, half}};
   }
 
   std::unique_ptr<Shape> owned_;  // of the result of within(): storage

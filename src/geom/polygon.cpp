@@ -27,7 +27,7 @@ std::string text(const Point2& p) { return fmt::format("({} {})", p[0], p[1]); }
 
 }  // namespace
 
-double distance(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+double distance(const Point2& a, const Point2& b) { return length_of(a[0] - b[0], a[1] - b[1]); }
 
 Polygon::Polygon(std::string_view what, std::span<const Point2> corners)
     : corners_(corners.begin(), corners.end()) {

@@ -1,6 +1,7 @@
 #pragma once
 // A polygon without crossings in a plane: the section of extrusions and solids of revolution.
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -34,6 +35,11 @@ class Polygon {
   std::vector<Point2> corners_;
 };
 
-[[nodiscard]] double distance(const Point2& a, const Point2& b);
+[[nodiscard]]  // Of a vector; coordinates are far from the limits of doubles.
+[[nodiscard]] inline double
+length_of(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
+double distance(const Point2& a, const Point2& b);
 
 }  // namespace sculpt

@@ -34,7 +34,7 @@ class Revolution final : public AnalyticSolid {
   }
 
  private:
-  [[nodiscard]] static Point2 in_section(const Vec3& p) { return {std::hypot(p.x, p.y), p.z}; }
+  [[nodiscard]] static Point2 in_section(const Vec3& p) { return {length_of(p.x, p.y), p.z}; }
   [[nodiscard]] bool on_axis(std::size_t side) const {
     return section_.corner(side)[0] == 0 && section_.side_end(side)[0] == 0;
   }
@@ -50,7 +50,7 @@ class Revolution final : public AnalyticSolid {
   }
 
   void cut(const Vec3& from, const Vec3& direction, std::vector<Interval>& pieces) const override {
-    std::vector<double> places;
+    std::vector<double>& places = places_for_this_thread();
     for (const std::size_t side : sides_) {
       if (is_disc(side))
         add_place((section_.corner(side)[1] - from.z) / direction.z, places);

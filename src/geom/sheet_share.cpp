@@ -7,13 +7,13 @@
 namespace sculpt {
 namespace {
 
-constexpr std::size_t kNodes = 5, kTests = 2;  // per direction
+constexpr std::size_t kNodes = 4, kTests = 2;  // per direction
 constexpr double kMostOff = 2e-4;              // of the box: an interpolated height against a true one
 constexpr double kFar = 2;  // boxes: heights farther from that in the middle are other sheets
 
 using Weights = std::array<double, kNodes>;
 
-// Of the polynomial through the nodes 0, 1/4 .. 1, at t.
+// Of the polynomial through the nodes 0, 1/3 .. 1, at t.
 constexpr Weights weights_at(double t) {
   Weights w{};
   for (std::size_t k = 0; k < kNodes; ++k) {
@@ -49,7 +49,7 @@ class Sheet {
       for (std::size_t j = 0; j < kNodes; ++j)
         if (!height(j, heights_[i][j])) return false;
     }
-    constexpr std::array<double, kTests> kBetween{0.125, 0.875};
+    constexpr std::array<double, kTests> kBetween{1.0 / 6, 5.0 / 6};
     for (const double u : kBetween) {
       row_at(u, kBetween);
       for (std::size_t j = 0; j < kTests; ++j) {
@@ -105,19 +105,25 @@ class Sheet {
     }
     return found;
   }
-  // The height of the sheet on a line of the row.
+  // The height of the sheet on a line of the row; false also where another sheet passes the box there.
   bool height(std::size_t line, double& h) const {
     double least = kFar * length();
     bool found = false;
+    int within = 0;
     for (std::size_t k = 0; k < row_.layers(); ++k) {
       const double lo = row_.lo(k)[line], hi = row_.hi(k)[line];
+      if (!(lo < hi)) continue;
+      within += is_within(lo) + is_within(hi);
       const double end = ends_ ? hi : lo;
-      if (!(lo < hi) || !(std::fabs(end - first_) < least)) continue;
+      if (!(std::fabs(end - first_) < least)) continue;
       least = std::fabs(end - first_);
       h = end;
       found = true;
     }
-    return found;
+    return found && within == is_within(h);
+  }
+  [[nodiscard]] int is_within(double height) const {
+    return box_.lo[axis_] < height && height < box_.hi[axis_] ? 1 : 0;
   }
 
   [[nodiscard]] double at(const Weights& u, const Weights& v) const {

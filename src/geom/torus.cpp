@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "geom/analytic_solid.hpp"
+#include "geom/polygon.hpp"
 #include "geom/solid_input.hpp"
 #include "sculpt/base/error.hpp"
 
@@ -79,17 +80,17 @@ class Torus final : public AnalyticSolid {
     const Polynomial<5> surface{c * c - four * (from.x * from.x + from.y * from.y),
                                 2 * four * from.z * direction.z,
                                 2 * c - four * (1 - direction.z * direction.z), 0, 1};
-    std::vector<double> places;
+    std::vector<double>& places = places_for_this_thread();
     add_roots(surface, -2 * radius(), 2 * radius(), places);
     add_inside(from, direction, places, pieces);
   }
 
   [[nodiscard]] bool inside(const Vec3& p) const override {
-    return std::hypot(std::hypot(p.x, p.y) - major_, p.z) <= minor_;
+    return length_of(length_of(p.x, p.y) - major_, p.z) <= minor_;
   }
 
   [[nodiscard]] Vec3 nearest(const Vec3& p) const override {
-    const double r = std::hypot(p.x, p.y);
+    const double r = length_of(p.x, p.y);
     const Vec3 outward = r > 0 ? Vec3{p.x / r, p.y / r, 0} : Vec3{1, 0, 0};
     const Vec3 middle = major_ * outward, off = p - middle;
     return middle + minor_ * (norm(off) > 0 ? direction_of(off) : outward);

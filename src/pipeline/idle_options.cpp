@@ -79,9 +79,13 @@ std::vector<std::string> idle_grid_options(const Deck& deck) {
     if (const std::string idle = given_of(deck, options); !idle.empty())
       told.push_back(fmt::format("{}; no effect: {}", why, idle));
   };
+  if (deck.diatom_file.empty() && deck.stl_file.empty())
+    tell("the input has no shapes to be measured", {"vfrac_method", "threads_process"});
   if (!deck.input_vfrac.empty())
     tell("the volume fractions have a grid of their own",
          {"nelx", "nely", "nelz", "xmin", "xmax", "ymin", "ymax", "zmin", "zmax", "cell_size"});
+  if (!deck.input_vfrac.empty() && !deck.mesh_void && !deck.given("thicken_void"))
+    tell("the volume fractions tell which material is void", {"void_mat"});
   if (deck.input_mesh.empty() && deck.input_mesh_pamgen.empty()) {
     tell("there is no input mesh",
          {"feature_angle", "exterior_sliding", "input_mesh_partition", "input_mesh_material"});

@@ -64,8 +64,6 @@ scale = 40)"),
 }
 
 TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
-  EXPECT_EQ(verdict(kSpn + "volfrac_file = v"),
-            "option 'volfrac_file' (line 6 of deck.i) is not supported yet");
   EXPECT_EQ(verdict("input_stitch = a.st"), "option 'input_stitch' (line 2 of deck.i) is not supported yet");
   EXPECT_EQ(verdict(kSpn + "periodic_axis = z"),
             "option 'periodic_axis' (line 6 of deck.i) is not supported yet");
@@ -77,6 +75,18 @@ TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
 TEST(Validate, RefusesUnsupportedValues) {
   EXPECT_EQ(verdict(kSpn + "gen_sidesets = 8"),
             "option 'gen_sidesets' (line 6 of deck.i): value rve_variable (8) is not supported yet");
+}
+
+TEST(Validate, VolumeFractionsHaveNoGeometryAndFilesOfTheirOwn) {
+  EXPECT_EQ(verdict(kSpn + "volfrac_file = v"), "no error");
+  EXPECT_EQ(verdict("input_vfrac = v"), "no error");
+  for (const char* line : {"smooth = to_geometry", "capture = 5"})
+    EXPECT_TRUE(verdict(std::string("input_vfrac = v\n") + line)
+                    .starts_with("smooth = to_geometry and capture need the geometry itself"));
+  EXPECT_TRUE(
+      verdict(kSpn + "volfrac_file = v\nexodus_file = v").starts_with("volfrac_file would write over"));
+  EXPECT_TRUE(verdict("input_vfrac = v\nvolfrac_file = v").starts_with("volfrac_file would write over"));
+  EXPECT_TRUE(verdict("input_vfrac = v\nexodus_file = v").starts_with("the mesh would be written over"));
 }
 
 // Every unsupported switch may be written down as long as it stays off.

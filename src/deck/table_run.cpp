@@ -8,6 +8,8 @@ namespace {
 constexpr EnumValue kSpnOrders[] = {{"xyz", kSpnXyz}, {"xzy", kSpnXzy}, {"yxz", kSpnYxz},
                                     {"yzx", kSpnYzx}, {"zxy", kSpnZxy}, {"zyx", kSpnZyx}};
 
+constexpr EnumValue kVfracMethods[] = {{"lines", kVfracLines}, {"points", kVfracPoints}};
+
 constexpr Group kP = Group::kProcess;
 constexpr OptionSpec kProcessOptions[] = {
     {.name = "help",
@@ -101,7 +103,10 @@ constexpr OptionSpec kProcessOptions[] = {
      .group = kP,
      .slot = &Deck::threads_process,
      .help = "Threads per process",
-     .about = "Number of threads of each rank.",
+     .about =
+         "Threads of each rank that measure volume fractions of shapes (STL and diatom input); the other "
+         "stages have one. The mesh does not depend on it.",
+     .supported = true,
      .lo = 1,
      .hi = 1024},
     {.name = "iproc",
@@ -147,10 +152,13 @@ constexpr OptionSpec kProcessOptions[] = {
      .group = kP,
      .slot = &Deck::vfrac_method,
      .help = "How volume fractions are computed",
-     .about = "Method for STL and diatom input.",
-     .lo = 0,
-     .hi = 100,
-     .unset = "default method"},
+     .about =
+         "For shapes (STL and diatom input). lines: exact along lines through the cell. points: the first "
+         "shape has each of 5 x 5 x 5 points of the cell; as the report describes it, and with the cells "
+         "that "
+         "Sculpt fills where they are about half full.",
+     .supported = true,
+     .values = kVfracMethods},
     {.name = "cubit_launch",
      .flag = "",
      .group = kP,
@@ -193,8 +201,8 @@ constexpr OptionSpec kInputOptions[] = {
          "Base name of files written with volfrac_file: <base>.e.<ranks>.<rank> of any number of ranks, or "
          "the joined file <base>.e. The grid, the materials, the void and the defaults of smoothing are "
          "those "
-         "of the run that wrote them. void_mat names the material to leave out when the files have no void. "
-         "smooth = to_geometry and capture are refused: the geometry is not in the files.",
+         "of the run that wrote them. smooth = to_geometry and capture are refused: the geometry is not in "
+         "the files.",
      .supported = true,
      .unset = "none",
      .argument = "base name"},

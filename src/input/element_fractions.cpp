@@ -72,20 +72,30 @@ void refuse_wrong(const Comm& comm, const std::string& path, std::span<const std
   refuse_first(comm, bad);
 }
 
-// Appends a cell of fractions that are right up to rounding.
-void add_cell(const Cell& cell, Fractions& to) {
-  const auto fraction = [&](std::size_t e, double least) {
-    return cell.value[e] < least ? 0.0 : std::min(cell.value[e], 1.0);
+// Whether nothing is to be changed: positive, and 1 in double precision.
+bool is_exact(const Cell& cell) {
+  double sum = 0;
+  for (const double value : cell.value) {
+    if (value < 0) return false;
+    sum += value;
+  }
+  return std::fabs(sum - 1) <= kRounding;
+}
+
+// Appends a cell of fractions that are right up to single precision.
+void add_normalised(const Cell& cell, Fractions& to) {
+  const auto fraction = [&](std::size_t e) {
+    return cell.value[e] < kAbsent ? 0.0 : std::min(cell.value[e], 1.0);
   };
-  const auto sum = [&](double least) {
-    double total = 0;
-    for (std::size_t e = 0; e < cell.value.size(); ++e) total += fraction(e, least);
-    return total;
-  };
-  const bool exact = std::fabs(sum(0) - 1) <= kRounding;
-  const double least = exact ? 0 : kAbsent, whole = exact ? 1 : sum(least);
+  double sum = 0;
+  for (std::size_t e = 0; e < cell.value.size(); ++e) sum += fraction(e);
   for (std::size_t e = 0; e < cell.value.size(); ++e)
-    if (fraction(e, least) > 0) to.add(cell.variable[e], fraction(e, least) / whole);
+    if (fraction(e) > 0) to.add(cell.variable[e], fraction(e) / sum);
+  to.end_cell();
+}
+
+void add_as_it_is(const Cell& cell, Fractions& to) {
+  for (std::size_t e = 0; e < cell.value.size(); ++e) to.add(cell.variable[e], cell.value[e]);
   to.end_cell();
 }
 
@@ -96,7 +106,13 @@ Fractions checked_fractions(const Comm& comm, const std::string& path, std::span
   refuse_wrong(comm, path, variables, element, found);
   Fractions fractions;
   fractions.reserve(element.size(), found.material.size());
-  for (std::size_t e = 0; e < element.size(); ++e) add_cell(cell_of(found, e), fractions);
+  for (std::size_t e = 0; e < element.size(); ++e) {
+    const Cell cell = cell_of(found, e);
+    if (is_exact(cell))
+      add_as_it_is(cell, fractions);
+    else
+      add_normalised(cell, fractions);
+  }
   return fractions;
 }
 

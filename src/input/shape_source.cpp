@@ -25,7 +25,13 @@ class ShapeSource final : public MaterialSource {
  public:
   ShapeSource(const Deck& deck, std::vector<MaterialShape> shapes, std::vector<FacetedSolid*> solids,
               Grid grid, const std::optional<std::array<Vec3, 3>>& axes, const Log& log)
-      : grid_(std::move(grid)), axes_(axes), periodic_(deck.periodic), solids_(std::move(solids)), log_(log) {
+      : grid_(std::move(grid)),
+        axes_(axes),
+        periodic_(deck.periodic),
+        solids_(std::move(solids)),
+        log_(log),
+        method_(deck.vfrac_method == kVfracPoints ? FractionMethod::kPoints : FractionMethod::kLines),
+        threads_(deck.threads_process) {
     for (const MaterialShape& shape : shapes) table_.block_id.push_back(shape.material);
     std::sort(table_.block_id.begin(), table_.block_id.end());
     table_.block_id.erase(std::unique(table_.block_id.begin(), table_.block_id.end()), table_.block_id.end());
@@ -48,8 +54,9 @@ class ShapeSource final : public MaterialSource {
     MaterialData data;
     data.table = table_;
     collectively(comm, "inserting volume fractions", [&] {
-      const auto field = shape_field(shapes_, grid_, outside_);
-      data.fractions = measure_cells(grid_, wanted[static_cast<std::size_t>(comm.rank())], *field);
+      data.fractions = measure_cells(
+          grid_, wanted[static_cast<std::size_t>(comm.rank())],
+          [this] { return shape_field(shapes_, grid_, outside_, method_); }, threads_);
     });
     return data;
   }
@@ -58,11 +65,11 @@ class ShapeSource final : public MaterialSource {
   [[nodiscard]] std::optional<std::array<Vec3, 3>> axes() const override { return axes_; }
 
   [[nodiscard]] std::unique_ptr<MaterialField> field(Fractions, const IndexBox&) const override {
-    return shape_field(shapes_, grid_, outside_);
+    return shape_field(shapes_, grid_, outside_, method_);
   }
 
   [[nodiscard]] std::unique_ptr<HexField> hex_field(Fractions, const IndexBox&, std::int32_t) const override {
-    return shape_hex_field(shapes_, grid_, outside_);
+    return shape_hex_field(shapes_, grid_, outside_, method_);
   }
 
   [[nodiscard]] ExactSurface exact_surface() const override { return surfaces_of(shapes_, grid_); }
@@ -176,6 +183,8 @@ class ShapeSource final : public MaterialSource {
   bool periodic_;
   std::vector<FacetedSolid*> solids_;  // those among the shapes and parts of them
   Log log_;
+  FractionMethod method_;
+  int threads_;
   MaterialTable table_;
   std::shared_ptr<const std::vector<InsertedShape>> shapes_;
   struct Faceted {

@@ -79,13 +79,16 @@ std::vector<std::string> idle_grid_options(const Deck& deck) {
     if (const std::string idle = given_of(deck, options); !idle.empty())
       told.push_back(fmt::format("{}; no effect: {}", why, idle));
   };
-  if (deck.stl_file.empty() && deck.diatom_file.empty())
-    tell("the input is no geometry", {"cell_size", "bbox_expand", "align"});
+  if (!has_shapes(deck))
+    tell("the input has no shapes to be measured",
+         {"vfrac_method", "threads_process", "cell_size", "bbox_expand", "align"});
   else if (deck.given("cell_size"))
     tell("cell_size makes the grid", {"nelx", "nely", "nelz"});
   if (!deck.input_vfrac.empty())
     tell("the volume fractions have a grid of their own",
          {"nelx", "nely", "nelz", "xmin", "xmax", "ymin", "ymax", "zmin", "zmax"});
+  if (!deck.input_vfrac.empty() && !deck.mesh_void && !deck.given("thicken_void"))
+    tell("the volume fractions tell which material is void", {"void_mat"});
   if (deck.input_mesh.empty() && deck.input_mesh_pamgen.empty()) {
     tell("there is no input mesh",
          {"feature_angle", "exterior_sliding", "input_mesh_partition", "input_mesh_material"});

@@ -41,14 +41,6 @@ void take_planes(const Comm& comm, const ElementShare& share, Grid& grid) {
   }
 }
 
-// Files without a void leave void_mat to name the material that is left out.
-void name_void(const Deck& deck, MaterialTable& table) {
-  if (table.void_material || deck.mesh_void || !deck.given("void_mat")) return;
-  const auto found = std::find(table.block_id.begin(), table.block_id.end(), deck.void_mat);
-  if (found != table.block_id.end())
-    table.void_material = static_cast<std::int32_t>(found - table.block_id.begin());
-}
-
 void print_summary(const Log& log, const std::string& base, const VolfracFiles& files, const Grid& grid,
                    const MaterialTable& table) {
   const auto& [x, y, z] = grid.planes;
@@ -87,7 +79,6 @@ std::unique_ptr<MaterialSource> open_vfrac(const Comm& comm, const Deck& deck, c
   HexMaterials materials;
   materials.table = std::move(cells.table);
   materials.owned = std::move(cells.fractions);
-  name_void(deck, materials.table);
   print_summary(log, deck.input_vfrac, files, shape->grid, materials.table);
   return grid_of_hexes(std::move(shape->grid), std::move(shape->cell), std::move(materials));
 }

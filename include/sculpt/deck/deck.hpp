@@ -66,6 +66,8 @@ enum Csmooth : int {
   kCsmoothLinear = 6,
 };
 
+enum VfracMethod : int { kVfracLines = 0, kVfracPoints = 1 };
+
 // Options of ours, not Sculpt's.
 enum SurfaceProjectionChoice : int {
   kProjectionAutomatic = 0,
@@ -184,7 +186,7 @@ struct Deck {
   int threads_process = 1;
   int iproc = 0, jproc = 0, kproc = 0;  // 0: chosen by the program
   bool build_ghosts = false;
-  int vfrac_method = 0;
+  int vfrac_method = kVfracLines;
   bool cubit_launch = false;
 
   // Input Data Files; an empty name means not used

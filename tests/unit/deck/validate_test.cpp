@@ -73,6 +73,18 @@ TEST(Validate, RefusesUnsupportedOptionsWithTheirPlace) {
             "option 'deg_threshold' (command line) is not supported yet");
 }
 
+TEST(Validate, VolumeFractionsHaveNoGeometryAndFilesOfTheirOwn) {
+  EXPECT_EQ(verdict(kSpn + "volfrac_file = v"), "no error");
+  EXPECT_EQ(verdict("input_vfrac = v"), "no error");
+  for (const char* line : {"smooth = to_geometry", "capture = 5"})
+    EXPECT_TRUE(verdict(std::string("input_vfrac = v\n") + line)
+                    .starts_with("smooth = to_geometry and capture need the geometry itself"));
+  EXPECT_TRUE(
+      verdict(kSpn + "volfrac_file = v\nexodus_file = v").starts_with("volfrac_file would write over"));
+  EXPECT_TRUE(verdict("input_vfrac = v\nvolfrac_file = v").starts_with("volfrac_file would write over"));
+  EXPECT_TRUE(verdict("input_vfrac = v\nexodus_file = v").starts_with("the mesh would be written over"));
+}
+
 // Every unsupported switch may be written down as long as it stays off.
 TEST(Validate, AcceptsUnsupportedOptionsThatAreOff) {
   for (const OptionSpec& option : option_table()) {

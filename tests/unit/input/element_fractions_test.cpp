@@ -45,6 +45,15 @@ TEST(ElementFractions, AreNormalised) {
   EXPECT_EQ(element_fractions(Comm::self(), "m", Names{"a"}, {}, {}).fractions.cells(), 0);
 }
 
+TEST(ElementFractions, ThoseOfDoublePrecisionStayAsTheyAre) {
+  const double third = 1.0 / 3;
+  const std::vector<double> value{third, third, third, 1e-14, 0, 1 - 1e-15};
+  const ElementFractions f =
+      element_fractions(Comm::self(), "m", Names{"a", "b", "c"}, std::vector<GlobalId>{0, 1}, value);
+  EXPECT_EQ(f.fractions.material, (std::vector<std::int32_t>{0, 1, 2, 0, 2}));
+  EXPECT_EQ(f.fractions.value, (std::vector<double>{third, third, third, 1e-14, 1 - 1e-15}));
+}
+
 TEST(ElementFractions, SinglePrecisionIsGoodEnough) {
   const Names names(60, "vf");
   std::vector<double> value(60, static_cast<double>(1.0F / 60));

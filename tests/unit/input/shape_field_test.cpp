@@ -1,3 +1,4 @@
+#include <array>
 #include <numeric>
 #include <random>
 
@@ -95,7 +96,66 @@ TEST(ShapeField, GivesCellsWhatWasRead) {
     read = source->read(Comm::self(), wanted).fractions;
     field = source->field({}, wanted[0]);
   }
-  expect_same(measure_cells(grid, whole({9, 9, 9}), *field), read);
+  Fractions again;
+  for (const Index3 cell : {Index3{0, 0, 0}, {4, 4, 4}, {6, 4, 3}}) {
+    Box box;
+    for (std::size_t d = 0; d < 3; ++d) {
+      box.lo[d] = grid.planes[d][static_cast<std::size_t>(cell[d])];
+      box.hi[d] = grid.planes[d][static_cast<std::size_t>(cell[d]) + 1];
+    }
+    again = {};
+    field->measure(box, again);
+    const auto c = static_cast<LocalId>(grid.cell_id(cell));
+    for (std::int32_t m = 0; m < 2; ++m) EXPECT_EQ(fraction_of(again, 0, m), fraction_of(read, c, m));
+  }
+}
+
+TEST(MeasureCells, AnyNumberOfThreadsMeasuresTheSame) {
+  const auto shapes = many_balls(200, 12);
+  const IndexBox box{{10, 20, 30}, {31, 33, 37}};
+  for (const FractionMethod method : {FractionMethod::kLines, FractionMethod::kPoints}) {
+    const auto make = [&] { return shape_field(shapes, kGrid, 3, method); };
+    const Fractions one = measure_cells(kGrid, box, make, 1);
+    EXPECT_EQ(one.cells(), box.size());
+    for (const int threads : {2, 3, 8}) expect_same(measure_cells(kGrid, box, make, threads), one);
+  }
+  EXPECT_EQ(measure_cells(
+                kGrid, IndexBox{}, [&] { return shape_field(shapes, kGrid, 3); }, 4)
+                .cells(),
+            0);
+}
+
+TEST(MeasureCells, FailureOfAThreadIsThrown) {
+  const MakeField fails = []() -> std::unique_ptr<MaterialField> { throw Error("no field"); };
+  EXPECT_THROW((void)measure_cells(kGrid, whole({4, 4, 4}), fails, 3), Error);
+}
+
+// The 125 points of a box are those that the first ball around them has.
+TEST(ShapeField, PointsBelongToTheFirstShape) {
+  const auto shapes = many_balls(300, 12);
+  const auto field = shape_field(shapes, kGrid, 3, FractionMethod::kPoints);
+  Random random(5);
+  int mixed = 0;
+  for (int n = 0; n < 100; ++n) {
+    const Box box = random_box(random, 4);
+    std::array<int, 4> count{};
+    for (int p = 0; p < 125; ++p) {
+      Vec3 at;
+      const std::array<int, 3> place{p % 5, p / 5 % 5, p / 25};
+      for (std::size_t d = 0; d < 3; ++d)
+        at[d] = box.lo[d] + (box.hi[d] - box.lo[d]) * (0.2 * place[d] + 0.1);
+      const auto first = std::find_if(shapes->begin(), shapes->end(), [&](const InsertedShape& inserted) {
+        return inserted.shape->contains({at, at});
+      });
+      ++count[static_cast<std::size_t>(first == shapes->end() ? 3 : first->material)];
+    }
+    Fractions found;
+    field->measure(box, found);
+    mixed += found.material.size() > 1;
+    for (std::int32_t m = 0; m < 4; ++m)
+      EXPECT_EQ(fraction_of(found, 0, m), count[static_cast<std::size_t>(m)] / 125.0);
+  }
+  EXPECT_GT(mixed, 10);
 }
 
 TEST(ShapeField, NamesASoleMaterialOnlyWhereItIs) {

@@ -123,7 +123,7 @@ void CellMeter::add_shares(const Cell& part, std::size_t depth, double weight) {
     sample(lines, most, 4.0 / 3);
     sample(lines, most / 2, -1.0 / 3);
   } else {
-    sample(lines, kMostLines >> depth, 1);
+    sample(lines, std::max<std::size_t>(kMostLines >> depth, 6), 1);
   }
   double covered = 0;
   if (share && filled_) covered_[1] = 1 - *share;

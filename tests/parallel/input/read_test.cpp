@@ -239,8 +239,8 @@ TEST(FailTogether, StlThatIsCutOff) {
 
 TEST(FailTogether, DiatomWithAMistake) {
   const TemporaryFile file(Comm::world(), "diatom\npackage 'a'\nmaterial 2\ninsert cube\n");
-  EXPECT_TRUE(
-      contains(agreed_error(diatom_deck(file.path(), 2, 1)), "line 4: insert 'cube' is not supported yet"));
+  EXPECT_TRUE(contains(agreed_error(diatom_deck(file.path(), 2, 1)),
+                       "line 4: found shape 'cube', expected 'sphere'"));
 }
 
 }  // namespace

@@ -453,9 +453,8 @@ std::vector<SideFace> side_faces(const SidePlan& plan, const HexMesh& mesh, int 
   std::vector<SidePlan::Item> box = plan.box;
   const auto key = [](const SidePlan::Item& item) { return std::tuple(item.cell, item.at, item.set); };
   std::sort(box.begin(), box.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  const auto last = std::unique(box.begin(), box.end(), [](const auto& a, const auto& b) {
-    return a.cell == b.cell && a.at == b.at;
-  });
+  const auto last = std::unique(
+      box.begin(), box.end(), [](const auto& a, const auto& b) { return a.cell == b.cell && a.at == b.at; });
   box.erase(last, box.end());
   for (const SidePlan::Item& item : box) finder.add_box(item);
   for (const SidePlan::Item& item : plan.beside) finder.add_parts(item);

@@ -19,14 +19,14 @@ Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& p) {
 
 FacetFeatures::FacetFeatures(const std::vector<Solid>& solids, double reach) : reach_(reach) {
   FacetMesh all;
-  std::int32_t surfaces = 0, corners = 0;
+  std::int32_t corners = 0;
   for (const Solid& solid : solids) {
     const auto first = static_cast<LocalId>(all.vertices.size());
     all.vertices.insert(all.vertices.end(), solid.mesh->vertices.begin(), solid.mesh->vertices.end());
     for (const auto& [a, b, c] : solid.mesh->triangles)
       all.triangles.push_back({first + a, first + b, first + c});
-    add(solid, surfaces, corners);
-    surfaces += solid.mesh->surfaces;
+    add(solid, surfaces_, corners);
+    surfaces_ += solid.mesh->surfaces;
     corners += solid.mesh->corners;
   }
   tree_ = std::make_unique<const FacetTree>(all);

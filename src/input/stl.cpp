@@ -99,6 +99,28 @@ FacetMesh repaired(const StlFile& file, const Log& log) {
   return mesh;
 }
 
+// The smooth surfaces of a mesh, by the numbers that capture_side takes: from `before` + 1.
+void tell_surfaces(const FacetMesh& mesh, std::int64_t before, const Log& log) {
+  constexpr std::int32_t kMostTold = 50;
+  struct Surface {
+    std::int64_t facets = 0;
+    Vec3 sum;  // of the middles of facets
+  };
+  std::vector<Surface> surfaces(at(mesh.surfaces));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Surface& s = surfaces[at(mesh.surface[t])];
+    ++s.facets;
+    for (const LocalId v : mesh.triangles[t]) s.sum += (1.0 / 3) * mesh.vertices[at(v)];
+  }
+  log.line("  Smooth surfaces      {}, corners {}", mesh.surfaces, mesh.corners);
+  for (std::int32_t s = 0; s < std::min(mesh.surfaces, kMostTold); ++s) {
+    const Vec3 middle = (1 / static_cast<double>(surfaces[at(s)].facets)) * surfaces[at(s)].sum;
+    log.line("    {}: {} facets around ({:g}, {:g}, {:g})", before + s + 1, surfaces[at(s)].facets, middle.x,
+             middle.y, middle.z);
+  }
+  if (mesh.surfaces > kMostTold) log.line("    and {} more", mesh.surfaces - kMostTold);
+}
+
 // A mesh of rank 0, divided into its surfaces.
 void share(const Comm& comm, FacetMesh& mesh) {
   comm.broadcast(mesh.vertices, 0);
@@ -123,6 +145,7 @@ std::vector<StlSolid> open_solids(const Comm& comm, const Deck& deck, const std:
     if (comm.rank() == 0) refuse_missing(files);
   });
   const bool divides = wants_surfaces(deck);
+  std::int64_t told = 0;                        // surfaces
   std::vector<FacetMesh> meshes(files.size());  // where their surfaces are asked for
   std::vector<StlSolid> solids(files.size());
   std::vector<Box> bounds;  // of each file that has facets
@@ -136,7 +159,8 @@ std::vector<StlSolid> open_solids(const Comm& comm, const Deck& deck, const std:
       if (facets[f] > 0) solids[f].solid = std::make_unique<FacetedSolid>(mesh);
       if (!divides) continue;
       divide_facets(mesh, deck.capture_angle);
-      log.line("  Smooth surfaces      {}, corners {}", mesh.surfaces, mesh.corners);
+      tell_surfaces(mesh, told, log);
+      told += mesh.surfaces;
       meshes[f] = std::move(mesh);
     }
   });

@@ -84,6 +84,10 @@ std::vector<std::string> idle_grid_options(const Deck& deck) {
          {"vfrac_method", "threads_process", "cell_size", "bbox_expand", "align"});
   else if (deck.given("cell_size"))
     tell("cell_size makes the grid", {"nelx", "nely", "nelz"});
+  if (deck.capture != kCaptureCurves) tell("capture is not 5", {"capture_side"});
+  if (deck.capture != kCaptureCurves &&
+      !(deck.gen_sidesets == kSidesetsGeometricSurfaces || deck.gen_sidesets == kSidesetsInputMeshAndStl))
+    tell("no smooth surfaces of facets are asked for", {"capture_angle"});
   if (!deck.input_vfrac.empty())
     tell("the volume fractions have a grid of their own",
          {"nelx", "nely", "nelz", "xmin", "xmax", "ymin", "ymax", "zmin", "zmax"});

@@ -100,7 +100,13 @@ struct Contour {
 };
 
 void refuse_nothing_to_capture(const Deck& deck, const Overlay& overlay) {
-  if (deck.capture != kCaptureCurves || overlay.features) return;
+  if (deck.capture != kCaptureCurves) return;
+  if (overlay.features && deck.given("capture_side") &&
+      (deck.capture_side < 1 || deck.capture_side > overlay.features->surfaces()))
+    throw AgreedError(fmt::format(
+        "option 'capture_side' ({}): found {}, expected one of the {} surfaces of the geometry",
+        deck.given_options.place("capture_side"), deck.capture_side, overlay.features->surfaces()));
+  if (overlay.features) return;
   throw AgreedError(
       fmt::format("option 'capture' ({}): the input has no facets whose edges could be captured; expected "
                   "stl_file, or a diatom file with 'insert stl'",

@@ -59,5 +59,15 @@ TEST_F(CaptureFromStl, NeedsFacets) {
   EXPECT_NE(result.error.find("no facets whose edges could be captured"), std::string::npos) << result.error;
 }
 
+TEST_F(CaptureFromStl, OfASideThatIsThere) {
+  write("solid.stl", examples::binary_stl(examples::box({0.6, 0.5, 0.55}), "box"));
+  write("d.i", "BEGIN SCULPT\n" + deck("capture_side = 7\n") + "END SCULPT\n");
+  const RunResult result = run({"sculpt", "-i", "d.i"});
+  EXPECT_NE(result.status, 0);
+  EXPECT_NE(result.error.find("'capture_side' (line 11 of d.i): found 7, expected one of the 6 surfaces"),
+            std::string::npos)
+      << result.error;
+}
+
 }  // namespace
 }  // namespace sculpt::cli

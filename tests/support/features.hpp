@@ -19,6 +19,7 @@ class BoxFeatures final : public GeometryFeatures {
   [[nodiscard]] bool inside(const Vec3& p) const;
   // Distance of p from the edges.
   [[nodiscard]] double from_edges(const Vec3& p) const;
+  [[nodiscard]] std::int32_t surfaces() const override { return 6; }
   [[nodiscard]] std::optional<SurfacePoint> nearest(const Vec3& p, std::int32_t a,
                                                     std::int32_t b) const override;
   [[nodiscard]] std::optional<Vec3> on_surface(std::int32_t surface, const Vec3& p) const override;

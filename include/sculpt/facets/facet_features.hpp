@@ -24,6 +24,7 @@ class FacetFeatures final : public GeometryFeatures {
   FacetFeatures(const std::vector<Solid>& solids, double reach);
   ~FacetFeatures() override;
 
+  [[nodiscard]] std::int32_t surfaces() const override { return surfaces_; }
   [[nodiscard]] std::optional<SurfacePoint> nearest(const Vec3& p, std::int32_t a,
                                                     std::int32_t b) const override;
   [[nodiscard]] std::optional<Vec3> on_surface(std::int32_t surface, const Vec3& p) const override;
@@ -43,6 +44,7 @@ class FacetFeatures final : public GeometryFeatures {
   void add(const Solid& solid, std::int32_t first_surface, std::int32_t first_corner);
 
   double reach_;
+  std::int32_t surfaces_ = 0;
   std::vector<std::int32_t> surface_, material_;  // per facet of the tree
   std::unique_ptr<const FacetTree> tree_;
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Segment>> curves_;  // by their two surfaces

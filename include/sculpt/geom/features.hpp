@@ -24,6 +24,8 @@ class GeometryFeatures {
     Vec3 point;
   };
 
+  // How many there are.
+  [[nodiscard]] virtual std::int32_t surfaces() const = 0;
   // The point nearest to p on the boundary of the solids of material a or b (dense indices).
   [[nodiscard]] virtual std::optional<SurfacePoint> nearest(const Vec3& p, std::int32_t a,
                                                             std::int32_t b) const = 0;

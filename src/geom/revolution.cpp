@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "geom/analytic_solid.hpp"
 #include "geom/polygon.hpp"
@@ -31,6 +32,7 @@ class Revolution final : public AnalyticSolid {
       if (!on_axis(i)) sides_.push_back(i);
       if (is_edge(i)) edges_.push_back(section_.corner(i));
     }
+    find_wall();
   }
 
  private:
@@ -49,7 +51,26 @@ class Revolution final : public AnalyticSolid {
            !(on_axis(before) && on_axis(corner));
   }
 
+  // The one side of a cylinder, cone or frustum that is no disc.
+  void find_wall() {
+    std::size_t walls = 0, discs = 0, wall = 0;
+    for (const std::size_t side : sides_) {
+      if (is_disc(side)) {
+        const bool from_axis = section_.corner(side)[0] == 0 || section_.side_end(side)[0] == 0;
+        discs += from_axis ? 1 : 3;
+      } else {
+        ++walls;
+        wall = side;
+      }
+    }
+    if (walls == 1 && discs <= 2) wall_ = wall;
+  }
+
   void cut(const Vec3& from, const Vec3& direction, std::vector<Interval>& pieces) const override {
+    if (wall_) {
+      cut_cone(section_.corner(*wall_), section_.side_end(*wall_), from, direction, pieces);
+      return;
+    }
     std::vector<double>& places = places_for_this_thread();
     for (const std::size_t side : sides_) {
       if (is_disc(side))
@@ -58,6 +79,48 @@ class Revolution final : public AnalyticSolid {
         add_crossings(side, from, direction, places);
     }
     add_inside(from, direction, places, pieces);
+  }
+
+  // What is within the wall and between its ends: r^2 <= (w + s dw)^2 along the line, and the slab.
+  void cut_cone(const Point2& end1, const Point2& end2, const Vec3& p, const Vec3& d,
+                std::vector<Interval>& pieces) const {
+    const double slope = (end2[0] - end1[0]) / (end2[1] - end1[1]);
+    const double low = std::min(end1[1], end2[1]), high = std::max(end1[1], end2[1]);
+    Interval slab{-2 * radius(), 2 * radius()};
+    if (d.z != 0) {
+      const double s1 = (low - p.z) / d.z, s2 = (high - p.z) / d.z;
+      slab = {std::max(slab.lo, std::min(s1, s2)), std::min(slab.hi, std::max(s1, s2))};
+    } else if (p.z < low || p.z > high) {
+      return;
+    }
+    const auto add = [&](double lo, double hi) {
+      lo = std::max(lo, slab.lo);
+      hi = std::min(hi, slab.hi);
+      if (lo < hi) pieces.push_back({lo, hi});
+    };
+    constexpr double kNoSquare = 1e-14;
+    const double w = end1[0] + slope * (p.z - end1[1]), dw = slope * d.z;
+    const double a = d.x * d.x + d.y * d.y - dw * dw, b = p.x * d.x + p.y * d.y - w * dw,
+                 c = p.x * p.x + p.y * p.y - w * w;
+    if (std::fabs(a) <= kNoSquare) {
+      if (b != 0)
+        b > 0 ? add(slab.lo, -c / (2 * b)) : add(-c / (2 * b), slab.hi);
+      else if (c <= 0)
+        add(slab.lo, slab.hi);
+      return;
+    }
+    const double rest = b * b - a * c;
+    if (rest <= 0) {
+      if (a < 0) add(slab.lo, slab.hi);
+      return;
+    }
+    const double root = std::sqrt(rest), s1 = (-b - root) / a, s2 = (-b + root) / a;
+    if (a > 0) {
+      add(s1, s2);
+    } else {  // outside of the roots; the mirror image of the cone lies beyond the slab
+      add(slab.lo, s2);
+      add(s1, slab.hi);
+    }
   }
 
   // With the cone (dz r)^2 = (dz r1 + dr (z - z1))^2, and its mirror image, where they are as high as the
@@ -112,8 +175,9 @@ class Revolution final : public AnalyticSolid {
   }
 
   Polygon section_;
-  std::vector<std::size_t> sides_;  // those that are not on the axis
-  std::vector<Point2> edges_;       // the corners of the section that are edges or corners of the surface
+  std::vector<std::size_t> sides_;   // those that are not on the axis
+  std::optional<std::size_t> wall_;  // of a solid that is one convex cone or tube between two discs
+  std::vector<Point2> edges_;        // the corners of the section that are edges or corners of the surface
 };
 
 std::unique_ptr<Shape> turned(std::string_view what, const Frame& frame, std::span<const Point2> corners) {

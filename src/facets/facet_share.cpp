@@ -31,7 +31,7 @@ double behind_points(std::span<const Triangle> facets, const Vec3& start, const 
 // Of a segment from (y0, z0) to (y1, z1).
 double behind_segment(const PlaneCut& c, const Reach& y, const Reach& z) {
   const double dy = c.v_out - c.v_in, dz = c.t_out - c.t_in;
-  std::array<double, 7> at{0, 1};
+  std::array<double, 7> at{0, 1, 1, 1, 1, 1, 1};  // the end stands for splits that there are not
   std::size_t count = 2;
   const auto split = [&](double from, double step, double x) {
     const double s = (x - from) / step;
@@ -39,9 +39,9 @@ double behind_segment(const PlaneCut& c, const Reach& y, const Reach& z) {
   };
   for (const double x : {y.lo, y.hi}) split(c.v_in, dy, x);
   for (const double x : {z.lo, z.start, z.hi}) split(c.t_in, dz, x);
-  std::sort(at.begin(), at.begin() + count);
+  std::sort(at.begin(), at.end());
   double sum = 0;
-  for (std::size_t i = 0; i + 1 < count; ++i) {
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
     const double middle = 0.5 * (at[i] + at[i + 1]), y_middle = c.v_in + middle * dy,
                  z_middle = c.t_in + middle * dz;
     if (y.lo < y_middle && y_middle < y.hi && z.lo < z_middle && z_middle < z.hi)

@@ -64,7 +64,7 @@ TEST_F(CaptureFromStl, OfASideThatIsThere) {
   write("d.i", "BEGIN SCULPT\n" + deck("capture_side = 7\n") + "END SCULPT\n");
   const RunResult result = run({"sculpt", "-i", "d.i"});
   EXPECT_NE(result.status, 0);
-  EXPECT_NE(result.error.find("'capture_side' (line 11 of d.i): found 7, expected one of the 6 surfaces"),
+  EXPECT_NE(result.error.find("'capture_side' (line 13 of d.i): found 7, expected one of the 6 surfaces"),
             std::string::npos)
       << result.error;
 }

@@ -343,7 +343,7 @@ constexpr OptionSpec kImproveOptions[] = {
          "Used with capture = 5: the one surface that is captured, numbered from 1 in the order in which the "
          "surfaces are met in the file; the log lists them.",
      .supported = true,
-     .lo = 0,
+     .lo = 1,
      .hi = kMaxId,
      .unset = "all"},
     {.name = "defeature",

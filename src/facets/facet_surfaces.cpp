@@ -42,7 +42,8 @@ void find_surfaces(FacetMesh& mesh, double angle) {
     for (const LocalId other : neighbours[t]) {
       const auto& back = neighbours[at(other)];
       const bool just_two = std::find(back.begin(), back.end(), static_cast<LocalId>(t)) != back.end();
-      if (just_two && dot(normal[t], normal[at(other)]) >= least_cosine)
+      const bool one_part = mesh.part.empty() || mesh.part[t] == mesh.part[at(other)];
+      if (just_two && one_part && dot(normal[t], normal[at(other)]) >= least_cosine)
         sets.join(static_cast<LocalId>(t), other);
     }
   mesh.surface.resize(mesh.triangles.size());

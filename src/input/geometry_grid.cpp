@@ -33,6 +33,9 @@ std::string bound_name(const Axis& a, bool high) {
 double size_of(const Axis& a) {
   const double from = a.has_lo ? a.lo : a.geometry_lo, to = a.has_hi ? a.hi : a.geometry_hi;
   if (from < to) return to - from;
+  if (!a.has_lo && !a.has_hi)
+    throw Error(fmt::format("the geometry is flat: in {} it reaches from {} to {}", a.letter, a.geometry_lo,
+                            a.geometry_hi));
   throw Error(fmt::format("{} = {} lies beyond the geometry, which reaches from {} to {}",
                           bound_name(a, a.has_hi), a.has_hi ? a.hi : a.lo, a.geometry_lo, a.geometry_hi));
 }

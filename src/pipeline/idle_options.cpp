@@ -86,7 +86,8 @@ std::vector<std::string> idle_grid_options(const Deck& deck) {
     tell("cell_size makes the grid", {"nelx", "nely", "nelz"});
   if (deck.capture != kCaptureCurves) tell("capture is not 5", {"capture_side"});
   if (deck.capture != kCaptureCurves &&
-      !(deck.gen_sidesets == kSidesetsGeometricSurfaces || deck.gen_sidesets == kSidesetsInputMeshAndStl))
+      !(deck.gen_sidesets == kSidesetsGeometricSurfaces || deck.gen_sidesets == kSidesetsGeometricSidesets ||
+        deck.gen_sidesets == kSidesetsInputMeshAndStl))
     tell("no smooth surfaces of facets are asked for", {"capture_angle"});
   if (!deck.input_vfrac.empty())
     tell("the volume fractions have a grid of their own",

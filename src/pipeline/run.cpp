@@ -313,6 +313,9 @@ void correct_to(const WantedVolumes& wanted, const Deck& deck, HexMesh& mesh, co
       correct_volumes(mesh, geometry.index, wanted.volume, deck.pcol_threshold, wanted.most);
   log.line("Volume correction: {} rounds, largest error left {:.4f} %, farthest move of a node {:.3f} cells",
            done.rounds, 100 * done.error, done.farthest);
+  if (done.left_alone > 0)
+    log.line("{}  {} materials are off by more than {:g} % of their volume, which is not corrected",
+             deck.volume_correction == kVolumesOn ? "WARNING:" : "", done.left_alone, 100 * wanted.most);
   stages.end("correct volumes");
 }
 

@@ -63,12 +63,13 @@ class Corrector {
     for (std::size_t m = 0; m < wanted.size(); ++m)
       if (wanted[m] >= 0 && std::fabs(wanted[m] - volume[m] * cell_) <= most * wanted[m])
         place_of_[m] = count_++;
-      else
-        wanted_[m] = -1;
+      else if (wanted[m] >= 0)
+        leave_alone(m);
   }
 
   VolumeCorrection run() {
     VolumeCorrection result;
+    result.left_alone = left_alone_;
     const std::vector<Vec3> start = mesh_.position;
     for (;; ++result.rounds) {
       const std::vector<double> missing = missing_volumes();
@@ -93,6 +94,10 @@ class Corrector {
     Vec3 by;
   };
 
+  void leave_alone(std::size_t material) {
+    wanted_[material] = -1;
+    ++left_alone_;
+  }
   [[nodiscard]] const Comm& comm() const { return mesh_.node_exchange.comm(); }
   [[nodiscard]] Vec3 in_cells(const Vec3& v) const {
     return {v.x / mesh_.cell_size.x, v.y / mesh_.cell_size.y, v.z / mesh_.cell_size.z};
@@ -259,6 +264,7 @@ class Corrector {
   double least_quality_, cell_;
   std::vector<LocalId> place_of_;  // per material: its place among those with a wanted volume
   LocalId count_ = 0;
+  int left_alone_ = 0;
   std::vector<LocalId> near_;             // hexes with an interface node
   std::vector<std::int64_t> far_units_;   // volume of the other ones of this rank, per material
   std::vector<LocalId> nodes_, slot_of_;  // interface nodes; per mesh node: its place among them

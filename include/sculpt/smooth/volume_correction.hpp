@@ -11,6 +11,7 @@ struct VolumeCorrection {
   int rounds = 0;
   double error = 0;     // largest relative error of volume left
   double farthest = 0;  // longest way of a node, in cells
+  int left_alone = 0;   // materials that are off by more than the share that is corrected
 };
 
 // Collective. wanted: volume of each material (units of the mesh), below 0 = free. interface: per node, kNone

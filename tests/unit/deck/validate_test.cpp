@@ -85,6 +85,19 @@ TEST(Validate, VolumeFractionsHaveNoGeometryAndFilesOfTheirOwn) {
   EXPECT_TRUE(verdict("input_vfrac = v\nexodus_file = v").starts_with("the mesh would be written over"));
 }
 
+TEST(Validate, CaptureMovesNodesWhichStairAndSmoothOffForbid) {
+  const std::string capture = "stl_file = a\ncell_size = 0.1\ncapture = 5";
+  EXPECT_EQ(verdict(capture), "no error");
+  EXPECT_TRUE(verdict(capture + "\nstair = fast").starts_with("stair keeps the cells as they are"));
+  EXPECT_TRUE(verdict(capture + "\nsmooth = off").starts_with("smooth = off leaves nodes where"));
+}
+
+TEST(Validate, ATurnedGridHasNoFilesOfVolumeFractions) {
+  const std::string align = "stl_file = a\ncell_size = 0.1\nalign = true";
+  EXPECT_EQ(verdict(align), "no error");
+  EXPECT_TRUE(verdict(align + "\nvolfrac_file = v").starts_with("volume fractions of a turned grid"));
+}
+
 // Every unsupported switch may be written down as long as it stays off.
 TEST(Validate, AcceptsUnsupportedOptionsThatAreOff) {
   for (const OptionSpec& option : option_table()) {

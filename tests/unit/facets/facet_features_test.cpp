@@ -40,6 +40,14 @@ TEST(DivideFacets, LeavesASphereWhole) {
   EXPECT_EQ(mesh.corners, 0);
 }
 
+TEST(DivideFacets, EndsSurfacesBetweenTheSolidsOfTheFile) {
+  FacetMesh mesh = divided(examples::box({1, 2, 3}));
+  mesh.part.assign(mesh.triangles.size(), 0);
+  mesh.part[1] = 1;  // one half of a side
+  divide_facets(mesh, 30);
+  EXPECT_EQ(mesh.surfaces, 7);
+}
+
 TEST(DivideFacets, FindsTheSurfacesOfABracket) {
   const FacetMesh mesh = divided(examples::bracket(32));
   EXPECT_EQ(mesh.surfaces, 10) << "two plates of three each, two sides, two ends";

@@ -119,6 +119,16 @@ TEST(GeometryGrid, TellsWhatIsMissingOrWrong) {
   EXPECT_EQ(error_of(deck), "xmin = 4 lies beyond the geometry, which reaches from 1 to 3");
   give(deck, "xmax", &Deck::xmax, 3.5);
   EXPECT_EQ(error_of(deck), "xmin = 4, xmax = 3.5: expected xmin < xmax");
+  EXPECT_THROW(
+      {
+        try {
+          (void)geometry_grid(counts(3, 3, 3), "stl_file", {{0, 0, 2}, {1, 1, 2}});
+        } catch (const Error& e) {
+          EXPECT_STREQ(e.what(), "the geometry is flat: in z it reaches from 2 to 2");
+          throw;
+        }
+      },
+      Error);
 }
 
 }  // namespace

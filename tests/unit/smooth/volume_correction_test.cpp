@@ -61,6 +61,7 @@ TEST(CorrectVolumes, LeavesAloneWhatIsTooFarOff) {
   EXPECT_NEAR(after[0], wanted[0], 1e-4 * wanted[0]);
   EXPECT_LT(after[1], before[1] * 1.01);
   EXPECT_LT(done.error, 1e-4) << "of those that are corrected";
+  EXPECT_EQ(done.left_alone, 1);
 }
 
 TEST(CorrectVolumes, DoesNotBuyVolumeWithQuality) {

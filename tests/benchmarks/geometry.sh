@@ -21,29 +21,22 @@ done
 build=$(cd "$build" && pwd)
 PATH=$build/apps:$build/examples/generators:$PATH
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# shellcheck source=runs.bash
+source "$here/runs.bash"
 cd "$work"
-
-median() { tr ' ' '\n' <<<"$*" | sort -g | awk '{v[NR] = $1} END {print v[int((NR + 1) / 2)]}'; }
-stage() { awk -v name="$2" 'index($0, "  " name " ") == 1 {sub("  " name, ""); t = $1} END {printf "%.3f\n", t}' "$1"; }
 
 # measure NAME RANKS ARGUMENTS...
 measure() {
   local name=$1 n=$2
   shift 2
-  local read=() share=() smooth=() total=() hexes=0
+  local read=() share=() smooth=() total=()
   for ((run = 0; run < runs; ++run)); do
     rm -f mesh.e.*
-    if ! sculpt "$@" -x "$cells" -y "$cells" -z "$cells" -t 0 -u 0 -v 0 -q 100 -r 100 -s 100 -V true -e mesh -j "$n" >log 2>&1; then
-      tail -3 log >&2
-      exit 1
-    fi
-    read+=("$(stage log "read geometry")") share+=("$(stage log "volume fractions")") smooth+=("$(stage log "smooth volume")")
-    total+=("$(awk '$1 == "Total" && $3 ~ /^[0-9]+$/ {print $2}' log)")
-    hexes=$(awk '/Num Elements/ {print $3}' log)
+    timed sculpt "$@" -x "$cells" -y "$cells" -z "$cells" -t 0 -u 0 -v 0 -q 100 -r 100 -s 100 -V true -e mesh -j "$n"
+    read+=("$(seconds_of "read geometry")") share+=("$(seconds_of "volume fractions")") smooth+=("$(seconds_of "smooth volume")")
+    total+=("$(all_seconds)")
   done
-  printf '%-24s %2d %9d %8.2f %9.2f %7.2f %7.2f %6.0f%%\n' "$name" "$n" "$hexes" "$(median "${read[@]}")" \
+  printf '%-24s %2d %9d %8.2f %9.2f %7.2f %7.2f %6.0f%%\n' "$name" "$n" "$(hexes)" "$(median "${read[@]}")" \
     "$(median "${share[@]}")" "$(median "${smooth[@]}")" "$(median "${total[@]}")" \
     "$(awk -v f="$(median "${share[@]}")" -v t="$(median "${total[@]}")" 'BEGIN {print 100 * f / t}')"
 }

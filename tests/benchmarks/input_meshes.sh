@@ -23,36 +23,28 @@ done
 build=$(cd "$build" && pwd)
 PATH=$build/apps:$build/examples/generators:$PATH
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# shellcheck source=runs.bash
+source "$here/runs.bash"
 cd "$work"
-
-median() { tr ' ' '\n' <<<"$*" | sort -g | awk '{v[NR] = $1} END {print v[int((NR + 1) / 2)]}'; }
-# stage LOG NAME: seconds; 0 where there is no such stage
-stage() { awk -v name="$2" 'index($0, "  " name " ") == 1 {sub("  " name, ""); t = $1} END {printf "%.3f\n", t}' "$1"; }
 
 # measure NAME RANKS ARGUMENTS...
 measure() {
   local name=$1 n=$2
   shift 2
-  local read=() check=() part=() share=() total=() bytes=() hexes=0
+  local read=() check=() part=() share=() total=() bytes=()
   for ((run = 0; run < runs; ++run)); do
     rm -f mesh.e.*
-    if ! sculpt "$@" -e mesh -j "$n" >log 2>&1; then
-      tail -3 log >&2
-      exit 1
-    fi
-    read+=("$(stage log "read input mesh")") check+=("$(stage log "check input mesh")")
-    part+=("$(stage log partition)") share+=("$(stage log distribute)")
-    total+=("$(awk '$1 == "Total" && $3 ~ /^[0-9]+$/ {print $2}' log)")
-    bytes+=("$(sed -n 's,.* \([0-9]*\) bytes/hex.*,\1,p' log)")
-    hexes=$(awk '/Num Elements/ {print $3}' log)
+    timed sculpt "$@" -e mesh -j "$n"
+    read+=("$(seconds_of "read input mesh")") check+=("$(seconds_of "check input mesh")")
+    part+=("$(seconds_of "partition")") share+=("$(seconds_of "distribute")")
+    total+=("$(all_seconds)")
+    bytes+=("$(bytes_per_hex)")
   done
   local all
   all=$(median "${total[@]}")
-  printf '%-22s %2d %9d %7.2f %7.2f %7.2f %7.2f %8.2f %12.0f %10d\n' "$name" "$n" "$hexes" "$(median "${read[@]}")" \
+  printf '%-22s %2d %9d %7.2f %7.2f %7.2f %7.2f %8.2f %12.0f %10d\n' "$name" "$n" "$(hexes)" "$(median "${read[@]}")" \
     "$(median "${check[@]}")" "$(median "${part[@]}")" "$(median "${share[@]}")" "$all" \
-    "$(awk -v h="$hexes" -v t="$all" -v n="$n" 'BEGIN {print h / t / n}')" "$(median "${bytes[@]}")"
+    "$(awk -v h="$(hexes)" -v t="$all" -v n="$n" 'BEGIN {print h / t / n}')" "$(median "${bytes[@]}")"
 }
 
 c=$cells

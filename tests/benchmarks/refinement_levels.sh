@@ -28,18 +28,13 @@ done
 build=$(cd "$build" && pwd)
 sculpt=$build/apps/sculpt
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# shellcheck source=runs.bash
+source "$here/runs.bash"
 "$build/examples/generators/microstructure" spheres 1000 "$spheres" 1 "$work/spheres.diatom"
-
-# One line of numbers: the middle one.
-median() { tr ' ' '\n' <<<"$*" | sort -g | awk '{v[NR] = $1} END {print v[int((NR + 1) / 2)]}'; }
-seconds_of() { awk -v names="$1" 'BEGIN {n = split(names, a, ",")}
-  {for (i = 1; i <= n; ++i) if (index($0, "  " a[i] " ") == 1) s += $(split(a[i], w, " ") + 1)} END {printf "%.3f", s}' "$work/log"; }
 
 # measure CELLS LEVELS
 measure() {
-  local cells=$1 levels=$2 walls=() adapts=() smooths=() bytes=() hexes=0 more=""
+  local cells=$1 levels=$2 walls=() adapts=() smooths=() bytes=() more=""
   [ "$levels" -eq 0 ] || more="adapt_type = vfrac_average
 adapt_levels = $levels"
   cat >"$work/deck.i" <<DECK
@@ -61,24 +56,16 @@ END SCULPT
 DECK
   for ((run = 0; run < runs; ++run)); do
     rm -f "$work"/mesh.e.*
-    local begin end
-    begin=$(date +%s%N)
-    if ! "$sculpt" -i "$work/deck.i" -j "$ranks" >"$work/log" 2>&1; then
-      tail -3 "$work/log" >&2
-      exit 1
-    fi
-    end=$(date +%s%N)
-    walls+=("$(awk -v t=$((end - begin)) 'BEGIN {printf "%.3f", t / 1e9}')")
+    timed "$sculpt" -i "$work/deck.i" -j "$ranks"
+    walls+=("$wall")
     adapts+=("$(seconds_of 'read input,distribute,choose cells to refine,refine,measure refined cells')")
     smooths+=("$(seconds_of 'smooth volume')")
-    bytes+=("$(sed -n 's,.* \([0-9]*\) bytes/hex.*,\1,p' "$work/log")")
-    hexes=$(awk '/Num Elements/ {print $3}' "$work/log")
+    bytes+=("$(bytes_per_hex)")
   done
-  local wall
   wall=$(median "${walls[@]}")
-  printf '%5d %6d %9d %8.2f %8.2f %8.2f %8.2f %9d  %s\n' "$cells" "$levels" "$hexes" "$wall" "$(median "${adapts[@]}")" \
-    "$(median "${smooths[@]}")" "$(awk -v h="$hexes" -v t="$wall" -v n="$ranks" 'BEGIN {print 1e6 * t * n / h}')" \
-    "$(median "${bytes[@]}")" "$(awk '/Min Quality/ {a = $3} /Avg Quality/ {b = $3} END {printf "%.3f / %.3f", a, b}' "$work/log")"
+  printf '%5d %6d %9d %8.2f %8.2f %8.2f %8.2f %9d  %s\n' "$cells" "$levels" "$(hexes)" "$wall" "$(median "${adapts[@]}")" \
+    "$(median "${smooths[@]}")" "$(awk -v h="$(hexes)" -v t="$wall" -v n="$ranks" 'BEGIN {print 1e6 * t * n / h}')" \
+    "$(median "${bytes[@]}")" "$(qualities)"
 }
 
 printf '%5s %6s %9s %8s %8s %8s %8s %9s  %s\n' cells levels hexes wall adapt smooth us/hex bytes/hex 'min / avg SJ'

@@ -26,36 +26,25 @@ build=$(cd "$build" && pwd)
 sculpt=$build/apps/sculpt
 generate=$build/examples/generators/microstructure
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-# One line of numbers: the middle one.
-median() { tr ' ' '\n' <<<"$*" | sort -g | awk '{v[NR] = $1} END {print v[int((NR + 1) / 2)]}'; }
+# shellcheck source=runs.bash
+source "$here/runs.bash"
 
 # measure NAME FILE NX NY NZ
 measure() {
   local name=$1 file=$2 nx=$3 ny=$4 nz=$5
   for n in $ranks; do
-    local walls=() stages=() hexes=0 bytes=()
+    local walls=() stages=() bytes=()
     for ((run = 0; run < runs; ++run)); do
       rm -f "$work"/mesh.e.*
-      local begin end
-      begin=$(date +%s%N)
-      if ! "$sculpt" --input_spn "$file" -x "$nx" -y "$ny" -z "$nz" -e "$work/mesh" -j "$n" >"$work/log" 2>&1; then
-        tail -3 "$work/log" >&2
-        exit 1
-      fi
-      end=$(date +%s%N)
-      walls+=("$(awk -v t=$((end - begin)) 'BEGIN {printf "%.3f", t / 1e9}')")
-      stages+=("$(awk '$1 == "Total" && $3 ~ /^[0-9]+$/ {print $2}' "$work/log")")
-      bytes+=("$(sed -n 's,.* \([0-9]*\) bytes/hex.*,\1,p' "$work/log")")
-      hexes=$(awk '/Num Elements/ {print $3}' "$work/log")
+      timed "$sculpt" --input_spn "$file" -x "$nx" -y "$ny" -z "$nz" -e "$work/mesh" -j "$n"
+      walls+=("$wall")
+      stages+=("$(all_seconds)")
+      bytes+=("$(bytes_per_hex)")
     done
-    local wall
     wall=$(median "${walls[@]}")
-    printf '%-24s %2d %9d %9.2f %9.2f %12.0f %10d  %s\n' "$name" "$n" "$hexes" "$wall" "$(median "${stages[@]}")" \
-      "$(awk -v h="$hexes" -v t="$wall" -v n="$n" 'BEGIN {print h / t / n}')" "$(median "${bytes[@]}")" \
-      "$(awk '/Min Quality/ {a = $3} /Avg Quality/ {b = $3} END {printf "%.3f / %.3f", a, b}' "$work/log")"
+    printf '%-24s %2d %9d %9.2f %9.2f %12.0f %10d  %s\n' "$name" "$n" "$(hexes)" "$wall" "$(median "${stages[@]}")" \
+      "$(awk -v h="$(hexes)" -v t="$wall" -v n="$n" 'BEGIN {print h / t / n}')" "$(median "${bytes[@]}")" \
+      "$(qualities)"
   done
 }
 
